@@ -1,0 +1,43 @@
+# How every Tsuya target is made: one library a folder, one package component a library.
+
+option(TSUYA_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+option(TSUYA_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+
+# Language level, warnings and sanitizers of one target.
+function(tsuya_target_defaults target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow
+        $<$<BOOL:${TSUYA_WARNINGS_AS_ERRORS}>:-Werror>)
+    if(TSUYA_SANITIZE)
+        # OpenSubdiv is built without run-time type information: no vptr check.
+        set(flags -fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=undefined
+            -fno-omit-frame-pointer)
+        target_compile_options(${target} PRIVATE ${flags})
+        target_link_options(${target} PRIVATE ${flags})
+    endif()
+endfunction()
+
+# tsuya_add_library(<component> HEADERS <public headers> SOURCES <sources>)
+# makes the target tsuya_<component> with the alias tsuya::<component>, installed as a package
+# component of that name. Headers are given relative to <folder>/include.
+function(tsuya_add_library component)
+    cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES" ${ARGN})
+    set(target tsuya_${component})
+    add_library(${target} STATIC ${ARG_SOURCES})
+    add_library(tsuya::${component} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+    tsuya_target_defaults(${target})
+    list(TRANSFORM ARG_HEADERS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/include/")
+    target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${ARG_HEADERS})
+    install(TARGETS ${target} EXPORT tsuya_${component}_targets COMPONENT ${component}
+            FILE_SET HEADERS)
+    set_property(GLOBAL APPEND PROPERTY TSUYA_COMPONENTS ${component})
+endfunction()
+
+# tsuya_add_program(<name> <sources>...) puts the program into <build>/bin.
+function(tsuya_add_program name)
+    add_executable(${name} ${ARGN})
+    tsuya_target_defaults(${name})
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+endfunction()

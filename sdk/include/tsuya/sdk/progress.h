@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// How long work tells how far it is, and how it is stopped.
+
+#include <atomic>
+#include <functional>
+#include <string_view>
+
+namespace tsuya {
+
+/// Given to long work. The work calls `report` from one thread at a time, and looks at `stop`
+/// often.
+struct Progress {
+    /// fraction in [0, 1] of the stage that is named; may be empty
+    std::function<void(std::string_view stage, double fraction)> report{};
+    const std::atomic<bool> *stop = nullptr; ///< set to true to ask the work to stop
+
+    bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
+    void operator()(std::string_view stage, double fraction) const {
+        if (report)
+            report(stage, fraction);
+    }
+};
+
+} // namespace tsuya

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// What a render makes: lamp-free light transport T, K channels per light group (THEORY: light
+/// transport is linear and acts on each wavelength by itself, so lamps are applied afterwards).
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tsuya/sdk/image.h"
+#include "tsuya/sdk/spectrum.h"
+
+namespace tsuya {
+
+/// Transport of each light group, per pixel. A lamp S turns it into a picture: the integral of
+/// S(lambda) * cmf(lambda) * sum_k T_k basis_k(lambda). T = 1 is a perfect white diffuser that the
+/// group's lights light with irradiance pi.
+struct SpectralImage {
+    int width = 0;
+    int height = 0;
+    SpectralBasis basis{};
+    std::vector<std::string> groups{}; ///< light group names
+    std::vector<float> transport{};    ///< [group][y][x][k]
+    std::vector<Image> aovs{};         ///< further pictures that were asked for, see aov_names
+    std::vector<std::string> aov_names{};
+    std::map<std::string, std::string> metadata{}; ///< provenance, e.g. {"samples_per_pixel", "64"}
+
+    static SpectralImage make(int width, int height, SpectralBasis basis,
+                              std::vector<std::string> groups);
+    float *pixel(std::size_t group, int x, int y) { return transport.data() + offset(group, x, y); }
+    const float *pixel(std::size_t group, int x, int y) const {
+        return transport.data() + offset(group, x, y);
+    }
+
+  private:
+    std::size_t offset(std::size_t group, int x, int y) const {
+        const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+        return ((group * h + static_cast<std::size_t>(y)) * w + static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(basis.count);
+    }
+};
+
+} // namespace tsuya

@@ -1,0 +1,56 @@
+#include "tsuya/sdk/surface.h"
+
+#include <cmath>
+
+#include "tsuya/sdk/error.h"
+
+namespace tsuya {
+namespace {
+
+bool finite(const glm::dvec3 &v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void check_unit(const std::vector<glm::vec3> &directions, const Surface &surface, const char *name,
+                const std::string &where) {
+    if (!directions.empty() && directions.size() != surface.position.size())
+        throw Error({std::string(name) + " has " + std::to_string(directions.size()) +
+                         " entries for " + std::to_string(surface.position.size()) + " vertices",
+                     where, "expected one a vertex"});
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        if (!(std::abs(glm::length(directions[i]) - 1.0f) < 1e-3f))
+            throw Error(
+                {std::string(name) + " of vertex " + std::to_string(i) + " is not a unit vector",
+                 where, "expected length 1"});
+}
+
+} // namespace
+
+void check_surface(const Surface &s, const std::string &where) {
+    if (s.triangle.empty())
+        throw Error({"the surface has no triangle", where, "expected at least one"});
+    if (s.normal.empty())
+        throw Error({"the surface has no normals", where, "expected one a vertex"});
+    for (std::size_t i = 0; i < s.position.size(); ++i)
+        if (!finite(s.position[i]))
+            throw Error({"vertex " + std::to_string(i) + " is not finite", where,
+                         "expected coordinates in metres"});
+    for (std::size_t i = 0; i < s.triangle.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            if (s.triangle[i][c] >= s.position.size())
+                throw Error({"triangle " + std::to_string(i) + " names vertex " +
+                                 std::to_string(s.triangle[i][c]),
+                             where,
+                             "expected an index below " + std::to_string(s.position.size())});
+    check_unit(s.normal, s, "normal", where);
+    check_unit(s.warp, s, "warp", where);
+    check_unit(s.weft, s, "weft", where);
+    if (!s.uv.empty() && s.uv.size() != s.position.size())
+        throw Error(
+            {"uv has " + std::to_string(s.uv.size()) + " entries", where, "expected one a vertex"});
+    if (!s.panel.empty() && s.panel.size() != s.triangle.size())
+        throw Error({"panel has " + std::to_string(s.panel.size()) + " entries", where,
+                     "expected one a triangle"});
+}
+
+} // namespace tsuya
