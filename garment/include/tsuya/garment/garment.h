@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// From a mesh file to a Surface in one call.
+///
+///     const auto dress = tsuya::garment::load("dress.obj", {.subdivide = {.level = 2}});
+///     render(dress.surface);
+///     for (const auto &finding : dress.report.findings) ...
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "tsuya/garment/frames.h"
+#include "tsuya/garment/report.h"
+#include "tsuya/garment/seams.h"
+#include "tsuya/garment/subdivide.h"
+#include "tsuya/sdk/progress.h"
+#include "tsuya/sdk/surface.h"
+
+namespace tsuya::garment {
+
+/// How a file is read. Everything has a usable default.
+struct Options {
+    double metres_per_unit = 1.0; ///< length of one unit of the file, see metres_per
+    /// Metres of cloth per unit of UV. nullopt: 1 if the mesh measures 0.5 to 2 (it is in metres),
+    /// else the median that the mesh measures, with a finding `uv_scale_measured`.
+    std::optional<double> metres_per_uv{};
+    SeamOptions seams{};
+    SubdivideOptions subdivide{};
+    FrameOptions frames{};   ///< its metres_per_uv is replaced by the one above
+    bool want_frames = true; ///< false: no warp, weft and UV (a body)
+    bool strict = false;     ///< every finding that is a warning becomes an Error
+};
+
+/// A garment or body that is ready to be rendered.
+struct LoadedGarment {
+    Surface surface{};
+    Report report{};
+};
+
+/// Metres of one `unit`: `m`, `dm`, `cm`, `mm`, `in`. Throws Error for another name.
+double metres_per(std::string_view unit);
+
+/// Reads, checks and repairs, joins the seams, subdivides, and adds frames.
+/// Throws Error naming the file (and line:column), and Interrupted where `progress` says stop.
+LoadedGarment load(const std::filesystem::path &path, const Options &options = {},
+                   const Progress &progress = {});
+
+/// The same for a mesh in memory. \param mesh positions in units of the file
+/// \param where names the mesh in errors
+LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
+                   const Progress &progress = {});
+
+} // namespace tsuya::garment

@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// A mesh of polygons as a file holds it: positions and UVs with separate indices, and panels.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace tsuya::garment {
+
+/// Polygons of any size. A corner is one vertex of one face; the corners of face f are
+/// `face_offset[f]` up to `face_offset[f + 1]`, counter-clockwise seen from outside.
+struct PolygonMesh {
+    std::vector<glm::dvec3> position{};           ///< metres
+    std::vector<glm::dvec2> uv{};                 ///< metres of cloth unless a scale is stated
+    std::vector<std::uint32_t> face_offset{0};    ///< faces + 1 entries, the first 0
+    std::vector<std::uint32_t> corner_position{}; ///< per corner, into `position`
+    std::vector<std::int32_t> corner_uv{};        ///< per corner, into `uv`; -1: no UV
+    std::vector<std::uint16_t> face_panel{};      ///< per face, into `panel_name`
+    std::vector<std::string> panel_name{};        ///< empty: the file names no panel
+
+    std::size_t face_count() const { return face_offset.size() - 1; }
+    std::uint32_t face_size(std::size_t f) const { return face_offset[f + 1] - face_offset[f]; }
+    /// The corner after / before `c` around face `f`.
+    std::uint32_t next(std::size_t f, std::uint32_t c) const {
+        return c + 1 == face_offset[f + 1] ? face_offset[f] : c + 1;
+    }
+    std::uint32_t previous(std::size_t f, std::uint32_t c) const {
+        return c == face_offset[f] ? face_offset[f + 1] - 1 : c - 1;
+    }
+    /// Appends a face; the two arrays are equally long.
+    void add_face(const std::vector<std::uint32_t> &positions, const std::vector<std::int32_t> &uvs,
+                  std::uint16_t panel);
+};
+
+/// Throws Error naming `where` unless every index is in range, every face has 3 corners or more,
+/// every number is finite and the arrays have lengths that fit.
+void check_indices(const PolygonMesh &mesh, const std::string &where);
+
+/// True if all corners of face `f` have a UV.
+bool has_uv(const PolygonMesh &mesh, std::size_t f);
+
+/// The island of each face: faces are of one island if they are joined by edges whose UV indices
+/// agree on both sides. Faces without UV are islands of their own, one for each connected set.
+/// \param count number of islands
+std::vector<std::uint32_t> uv_islands(const PolygonMesh &mesh, std::uint32_t &count);
+
+/// Names one panel for each UV island, `island0`, `island1`, ... in the order of their first faces;
+/// for files without groups. Throws Error where there are more than 65535 islands.
+void panels_from_uv_islands(PolygonMesh &mesh);
+
+} // namespace tsuya::garment

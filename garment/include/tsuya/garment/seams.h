@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Seams: panels that lie edge to edge are joined, while their UVs stay apart.
+
+#include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/garment/report.h"
+
+namespace tsuya::garment {
+
+/// How near boundary vertices must be to be joined.
+struct SeamOptions {
+    double tolerance = 0.5e-3; ///< metres, 0 to join only equal positions; negative: do not join
+};
+
+/// Joins boundary vertices that lie within the tolerance of each other, and puts a boundary vertex
+/// that lies on a neighbour's boundary edge into that edge (a T-junction): triangles are divided
+/// into triangles, larger faces get one corner more. The UV of a new corner is interpolated along
+/// the edge; the UVs of the two sides stay apart. Two vertices of one face are never joined, and a
+/// vertex moves by less than half of its shortest edge.
+/// \param mesh manifold, with valid indices (see make_manifold)
+PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, SeamReport &report);
+
+/// Makes every edge border at most two faces of one orientation and every vertex join one fan of
+/// faces, as half-edge meshes need: drops degenerate and duplicate faces and isolated vertices,
+/// turns faces over where that makes neighbours agree (the larger area of a part keeps its side),
+/// and cuts open what remains. All of it is counted.
+/// \param mesh valid indices
+PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report);
+
+} // namespace tsuya::garment
