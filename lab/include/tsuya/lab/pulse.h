@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// Trains of exact shutter pulses under a lit lamp.
+
+#include "tsuya/lab/clock.h"
+#include "tsuya/lab/line.h"
+#include "tsuya/sdk/progress.h"
+
+#include <string>
+#include <vector>
+
+namespace tsuya::lab {
+
+/// When the shutter opens and closes. Pulse i opens at i * period after the lamp is warm, and
+/// closes `width` later.
+struct PulseTrain {
+    std::chrono::nanoseconds width = std::chrono::milliseconds(20);   ///< > 0
+    std::chrono::nanoseconds period = std::chrono::milliseconds(100); ///< > width, <= 1 h
+    int count = 1;                                                    ///< 1..1000000
+    std::chrono::nanoseconds warm_up{0}; ///< lamp on before the first pulse; 0..24 h
+};
+
+/// Throws Error listing everything that is out of range.
+/// \param where put before the field's name, as in `where.width`; may be empty
+void check_pulse_train(const PulseTrain &train, const std::string &where = "");
+
+/// What is moved, and by which time. Only the shutter and the clock are needed.
+struct Rig {
+    OutputLine &shutter;
+    Clock &clock;
+    OutputLine *lamp = nullptr;
+};
+
+/// One pulse as it was: times after the planned opening of the first pulse. The line had been set
+/// when the time was read.
+struct PulseTiming {
+    std::chrono::nanoseconds opened{0};
+    std::chrono::nanoseconds closed{0};
+};
+
+/// A whole train as it was.
+struct PulseReport {
+    std::vector<PulseTiming> pulses{};        ///< one each, in order
+    std::chrono::nanoseconds mean_width{0};   ///< mean of closed - opened
+    std::chrono::nanoseconds mean_late{0};    ///< mean over all openings and closings
+    std::chrono::nanoseconds largest_late{0}; ///< of any opening or closing after its plan
+};
+
+/// Lamp on, warm-up, the pulses, lamp off. Lamp and shutter are inactive when this returns or
+/// throws, whatever happened; if one cannot be driven off, the Error says so beside the first
+/// cause. `progress` is told after each pulse.
+///
+/// Throws Error for a train out of range, a line that fails, or a pulse that could only have opened
+/// after it should have closed (the computer slept or was too busy), and Interrupted when
+/// `progress.stop` was set, which ends a pulse or a warm-up in the middle.
+PulseReport run_pulses(const PulseTrain &train, const Rig &rig, const Progress &progress = {});
+
+} // namespace tsuya::lab
