@@ -8,6 +8,8 @@ function(tsuya_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow
+        # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651)
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
         $<$<BOOL:${TSUYA_WARNINGS_AS_ERRORS}>:-Werror>)
     if(TSUYA_SANITIZE)
         # OpenSubdiv is built without run-time type information: no vptr check.

@@ -1,0 +1,80 @@
+#pragma once
+/// \file
+/// A TOML file read with care: every value is asked for by name, every problem has its line and
+/// column, and what nobody asked for is an unknown key.
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace tsuya {
+
+namespace detail {
+struct DocumentState;
+}
+
+/// A table of the document. Getters note a problem and return a usable value where the key is
+/// missing or wrong; `Document::finish` throws them all.
+class Section {
+  public:
+    bool has(std::string_view key) const;
+    /// file:line:column of a key, of the section where the key is absent.
+    std::string where(std::string_view key = {}) const;
+
+    std::optional<std::string> text(std::string_view key) const;
+    std::string required_text(std::string_view key) const;
+    /// Numbers outside [low, high] and not finite ones are problems.
+    std::optional<double> number(std::string_view key,
+                                 double low = -std::numeric_limits<double>::max(),
+                                 double high = std::numeric_limits<double>::max()) const;
+    double required_number(std::string_view key, double low = -std::numeric_limits<double>::max(),
+                           double high = std::numeric_limits<double>::max()) const;
+    std::optional<int> integer(std::string_view key, int low, int high) const;
+    std::optional<bool> flag(std::string_view key) const;
+    /// An array of finite numbers.
+    std::optional<std::vector<double>> numbers(std::string_view key) const;
+    std::optional<glm::dvec3> vector(std::string_view key) const;
+    std::optional<std::vector<std::string>> texts(std::string_view key) const;
+    /// All keys of the section with texts as values.
+    std::vector<std::pair<std::string, std::string>> all_texts() const;
+
+    /// A table in the table; empty where absent.
+    std::optional<Section> section(std::string_view key) const;
+    /// All tables in the table, in the order of the file: `[fabrics.satin]`, `[fabrics.lining]`.
+    std::vector<std::pair<std::string, Section>> sections() const;
+
+    /// Notes a problem at a key.
+    void problem(std::string_view key, std::string what, std::string accepted) const;
+
+  private:
+    friend class Document;
+    Section(detail::DocumentState *state, const void *table) : state_(state), table_(table) {}
+    detail::DocumentState *state_;
+    const void *table_;
+};
+
+class Document {
+  public:
+    /// Throws Error with file:line:column if the file cannot be read or is not TOML.
+    explicit Document(const std::filesystem::path &file);
+    ~Document();
+    Document(const Document &) = delete;
+    Document &operator=(const Document &) = delete;
+
+    Section root() const;
+    /// Throws Error with every problem noted so far, unknown keys among them with the nearest known
+    /// key.
+    void finish() const;
+
+  private:
+    std::unique_ptr<detail::DocumentState> state_;
+};
+
+} // namespace tsuya

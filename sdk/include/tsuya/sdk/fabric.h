@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// A fabric as its author describes it, and the material that the renderer shades with.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/brdf.h"
+#include "tsuya/sdk/spectrum.h"
+
+namespace tsuya {
+
+/// Authored. The measured black fabric gives the specular part, a dye the diffuse part
+/// ([Takeda] Eq. 18).
+struct Fabric {
+    std::string name{};
+    std::map<std::string, std::string> keys{}; ///< provenance
+    std::optional<Bard> bard{};                ///< none: no specular part
+    std::optional<double> f0{};                ///< in (0, 1]; none: rho0(0,0), as [Takeda] has it
+    Spectrum dye = Spectrum::constant(0.0);    ///< diffuse reflectance, 0..1
+    Spectrum specular_tint = Spectrum::constant(1); ///< colour of the specular part, 0..1
+};
+
+/// Resolved. Local space, see brdf.h; both sides of a cloth are alike.
+struct Material {
+    std::optional<Brdf> specular{};
+    Spectrum specular_tint = Spectrum::constant(1);
+    Spectrum dye = Spectrum::constant(0);
+
+    bool has_diffuse() const;
+    bool has_specular() const;
+};
+
+/// Throws Error naming `where`: a spectrum outside 0..1, f0 outside (0, 1].
+Material resolve(const Fabric &fabric, const std::string &where);
+
+/// Reads F.fabric.toml. Throws Error with file:line:column; unknown keys are refused with the
+/// nearest known.
+Fabric read_fabric(const std::filesystem::path &file);
+
+/// Writes F.fabric.toml through a temporary file, with the views at normal incidence in it.
+void write_fabric(const Fabric &fabric, const std::filesystem::path &file);
+
+} // namespace tsuya

@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The measured or simulated reflectance of a fabric: what the lab makes and a fabric is fitted to.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tsuya {
+
+/// How views may be mirrored about the yarn axes.
+enum class Symmetry {
+    none,
+    half_turn,   ///< rho(theta, phi) = rho(theta, phi + pi): twisted yarn
+    orthotropic, ///< also rho(theta, phi) = rho(theta, -phi): two orthogonal axes
+};
+
+const char *name_of(Symmetry symmetry);
+
+/// One measured pair of directions. Angles in radians; phi from the weft axis.
+struct ReflectanceRow {
+    double theta_i = 0, phi_i = 0;
+    double theta_r = 0, phi_r = 0;
+    double brdf_per_sr = 0;  ///< without the cosine, >= 0
+    double sigma_per_sr = 0; ///< standard error; 0 where unknown
+};
+
+/// Rows in any order, with the comment keys of the file (`instrument`, `date`, `provenance`...).
+struct ReflectanceTable {
+    std::map<std::string, std::string> keys{}; ///< every `# key: value` but symmetry
+    Symmetry symmetry = Symmetry::orthotropic;
+    std::vector<ReflectanceRow> rows{};
+
+    bool has_sigma() const;
+    /// The rows with light from straight above.
+    ReflectanceTable normal_incidence() const;
+};
+
+/// Reads TABLE.csv: comment lines `# key: value`, a header line, and rows
+/// `theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr[,sigma_per_sr]`, degrees.
+/// Throws Error with file:line:column of up to 20 problems: columns missing, not a number,
+/// negative, NaN, an angle outside [0, 90] or [-360, 360], no row, an unknown symmetry.
+ReflectanceTable read_reflectance_table(const std::filesystem::path &file);
+
+/// Writes TABLE.csv through a temporary file. Throws Error where the file cannot be written.
+void write_reflectance_table(const ReflectanceTable &table, const std::filesystem::path &file);
+
+} // namespace tsuya

@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// What sampling a BRDF gives.
+
+#include <glm/glm.hpp>
+
+namespace tsuya {
+
+/// A drawn direction in the cloth's frame.
+struct SampledDirection {
+    glm::vec3 direction{0, 0, 1}; ///< unit, z > 0
+    float weight = 0;             ///< f times the cosine of the drawn direction over pdf
+    float pdf_per_sr = 0;
+};
+
+} // namespace tsuya

@@ -1,0 +1,216 @@
+#include "tsuya/sdk/bard.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+#include "tsuya/sdk/error.h"
+
+namespace tsuya {
+namespace {
+
+constexpr std::size_t kMinViews = 6;
+constexpr double kMinReach = 20 * std::numbers::pi / 180;
+// Values below this share of the peak, zeros among them, count as this share: log needs a floor.
+constexpr double kFloor = 1e-6;
+constexpr double kSameView = 1e-6;
+
+// The compactly supported C2 function of Wendland for up to three dimensions, [Wendland] phi_{3,1}.
+double kernel(double dx, double dy) {
+    const double r = std::sqrt(dx * dx + dy * dy);
+    const double s = std::max(0.0, 1.0 - r), s2 = s * s;
+    return s2 * s2 * (4.0 * r + 1.0);
+}
+
+// The images of a point of the disk under the symmetry; the first is the point.
+std::array<glm::dvec2, 4> images(double x, double y, Symmetry symmetry, int &count) {
+    count = symmetry == Symmetry::orthotropic ? 4 : symmetry == Symmetry::half_turn ? 2 : 1;
+    return {{{x, y}, {-x, -y}, {x, -y}, {-x, y}}};
+}
+
+// Equal-area disk: radius sqrt(2) sin(theta/2), 1 at the horizon.
+glm::dvec2 disk_of(double theta, double phi) {
+    const double r = std::numbers::sqrt2 * std::sin(theta / 2);
+    return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+glm::dvec2 folded(glm::dvec2 p, Symmetry symmetry) {
+    if (symmetry == Symmetry::orthotropic)
+        return glm::abs(p);
+    if (symmetry == Symmetry::half_turn && (p.y < 0 || (p.y == 0 && p.x < 0)))
+        return -p;
+    return p;
+}
+
+} // namespace
+
+void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
+    symmetry_ = table.symmetry;
+    double reach = 0;
+    for (const ReflectanceRow &row : table.normal_incidence().rows) {
+        views_.push_back({row.theta_r, row.phi_r, row.brdf_per_sr, row.sigma_per_sr, 0});
+        peak_ = std::max(peak_, row.brdf_per_sr);
+        reach = std::max(reach, row.theta_r);
+    }
+    if (views_.size() < kMinViews || reach < kMinReach)
+        throw Error({"the table has " + std::to_string(views_.size()) +
+                         " views with light from straight above, the farthest " +
+                         std::to_string(std::lround(reach * 180 / std::numbers::pi)) +
+                         " degrees from the normal",
+                     where,
+                     "expected 6 or more rows with theta_i_deg = 0, some beyond 20 degrees"});
+
+    // Views that are one by the symmetry become one node with their mean
+    struct Group {
+        glm::dvec2 p;
+        std::vector<const BardView *> members;
+    };
+    std::vector<Group> groups;
+    for (const BardView &view : views_) {
+        const glm::dvec2 p = folded(disk_of(view.theta, view.phi), symmetry_);
+        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group &g) {
+            return glm::length(g.p - p) < kSameView;
+        });
+        if (same == groups.end())
+            groups.push_back({p, {&view}});
+        else
+            same->members.push_back(&view);
+    }
+
+    double squares = 0, mirrored = 0;
+    const double floor = std::max(peak_ * kFloor, std::numeric_limits<double>::min());
+    for (const Group &g : groups) {
+        double mean = 0, variance = 0;
+        for (const BardView *v : g.members) {
+            mean += v->brdf_per_sr / static_cast<double>(g.members.size());
+            variance += v->sigma_per_sr * v->sigma_per_sr;
+        }
+        mean = std::max(mean, floor);
+        nodes_.push_back({g.p.x, g.p.y, 0});
+        log_value_.push_back(std::log(mean));
+        relative_sigma_.push_back(std::sqrt(variance) /
+                                  (mean * static_cast<double>(g.members.size())));
+        for (const BardView *v : g.members) {
+            const double d = std::log10(std::max(v->brdf_per_sr, floor) / mean);
+            squares += g.members.size() > 1 ? d * d : 0;
+            mirrored += g.members.size() > 1 ? 1 : 0;
+        }
+    }
+    asymmetry_ = mirrored > 0 ? std::sqrt(squares / mirrored) : 0;
+    for (const double v : log_value_)
+        mean_log_ += v / static_cast<double>(log_value_.size());
+}
+
+// Sets the weights of the nodes; returns the mean squared leave-one-out error of log rho.
+double Bard::solve(const BardSmoothness &s) {
+    const auto n = static_cast<Eigen::Index>(nodes_.size());
+    Eigen::MatrixXd k(n, n);
+    Eigen::VectorXd y(n);
+    int count = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Node &a = nodes_[static_cast<std::size_t>(i)];
+        const auto image = images(a.x, a.y, symmetry_, count);
+        y[i] = log_value_[static_cast<std::size_t>(i)] - mean_log_;
+        for (Eigen::Index j = 0; j <= i; ++j) {
+            const Node &b = nodes_[static_cast<std::size_t>(j)];
+            double sum = 0;
+            for (int g = 0; g < count; ++g)
+                sum += kernel((image[static_cast<std::size_t>(g)].x - b.x) / s.weft_support,
+                              (image[static_cast<std::size_t>(g)].y - b.y) / s.warp_support);
+            k(i, j) = k(j, i) = sum;
+        }
+    }
+    const double variance = std::max(y.squaredNorm() / static_cast<double>(n), 1e-12);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double sigma = relative_sigma_[static_cast<std::size_t>(i)];
+        k(i, i) += std::max(s.noise_share, sigma * sigma / variance);
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factor(k);
+    const Eigen::VectorXd weight = factor.solve(y);
+    const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(n, n));
+    double error = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        nodes_[static_cast<std::size_t>(i)].weight = weight[i];
+        // Leave-one-out residual of a linear smoother, [Rasmussen] Eq. 5.12
+        error += std::pow(weight[i] / inverse(i, i), 2) / static_cast<double>(n);
+    }
+    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+}
+
+void Bard::finish() {
+    solve(smoothness_);
+    int count = 0;
+    for (const Node &n : nodes_) {
+        const auto image = images(n.x, n.y, symmetry_, count);
+        for (int g = 0; g < count; ++g)
+            mirrored_.push_back({image[static_cast<std::size_t>(g)].x,
+                                 image[static_cast<std::size_t>(g)].y, n.weight});
+    }
+    for (BardView &v : views_) {
+        const glm::dvec2 p = disk_of(v.theta, v.phi);
+        v.fitted_per_sr = peak_ > 0 ? std::exp(log_at(p.x, p.y)) : 0;
+    }
+}
+
+Bard Bard::fit(const ReflectanceTable &table, const BardSmoothness &smoothness,
+               const std::string &where) {
+    Bard bard;
+    bard.take_views(table, where);
+    bard.smoothness_ = smoothness;
+    bard.finish();
+    return bard;
+}
+
+Bard Bard::fit(const ReflectanceTable &table, const std::string &where) {
+    Bard bard;
+    bard.take_views(table, where);
+    double best_error = std::numeric_limits<double>::infinity();
+    const auto attempt = [&](BardSmoothness s) {
+        if (const double error = bard.solve(s); error < best_error) {
+            best_error = error;
+            bard.smoothness_ = s;
+        }
+    };
+    // One support for both axes, then each axis by itself, then the noise
+    for (const double support : {0.25, 0.5, 1.0, 2.0, 4.0})
+        attempt({support, support, 1e-6});
+    const BardSmoothness round = bard.smoothness_;
+    for (const double ratio : {0.5, 2.0}) {
+        attempt({round.weft_support * ratio, round.warp_support, round.noise_share});
+        attempt({round.weft_support, round.warp_support * ratio, round.noise_share});
+    }
+    const BardSmoothness shaped = bard.smoothness_;
+    for (const double noise : {1e-5, 1e-4, 1e-3, 1e-2})
+        attempt({shaped.weft_support, shaped.warp_support, noise});
+    bard.finish();
+    return bard;
+}
+
+double Bard::log_at(double x, double y) const {
+    const double sx = 1 / smoothness_.weft_support, sy = 1 / smoothness_.warp_support;
+    double sum = 0;
+    for (const Node &n : mirrored_)
+        sum += n.weight * kernel((x - n.x) * sx, (y - n.y) * sy);
+    return mean_log_ + sum;
+}
+
+double Bard::at(const glm::dvec3 &to_viewer) const {
+    if (peak_ == 0)
+        return 0;
+    const double scale = 1 / std::sqrt(1 + std::max(0.0, to_viewer.z));
+    return std::exp(log_at(to_viewer.x * scale, to_viewer.y * scale));
+}
+
+double Bard::residual() const {
+    double squares = 0;
+    for (const BardView &v : views_)
+        if (v.brdf_per_sr > 0)
+            squares += std::pow(std::log10(v.fitted_per_sr / v.brdf_per_sr), 2);
+    return std::sqrt(squares / static_cast<double>(views_.size()));
+}
+
+} // namespace tsuya

@@ -1,0 +1,233 @@
+#include "tsuya/sdk/document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <toml++/toml.h>
+
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya {
+
+struct detail::DocumentState {
+    std::string file;
+    toml::table root;
+    std::vector<Problem> problems;
+    std::map<const toml::table *, std::set<std::string, std::less<>>> asked;
+    std::set<const toml::table *> open; ///< tables whose keys are all the author's
+
+    std::string place(const toml::source_region &source) const {
+        return file + ":" + std::to_string(source.begin.line) + ":" +
+               std::to_string(source.begin.column);
+    }
+};
+
+namespace {
+
+const toml::table &table_of(const void *table) { return *static_cast<const toml::table *>(table); }
+
+void find_unknown(const detail::DocumentState &state, const toml::table &table,
+                  std::vector<Problem> &problems) {
+    const auto asked = state.asked.find(&table);
+    if (asked == state.asked.end() || state.open.contains(&table))
+        return;
+    const std::vector<std::string> known(asked->second.begin(), asked->second.end());
+    for (const auto &[key, node] : table) {
+        const std::string name(key.str());
+        if (!asked->second.contains(name))
+            problems.push_back({"unknown key '" + name + "'", state.place(key.source()),
+                                accepted_names(name, known)});
+        else if (const toml::table *inner = node.as_table())
+            find_unknown(state, *inner, problems);
+    }
+}
+
+} // namespace
+
+Document::Document(const std::filesystem::path &file)
+    : state_(std::make_unique<detail::DocumentState>()) {
+    state_->file = file.string();
+    const std::string bytes = read_file(file);
+    try {
+        state_->root = toml::parse(bytes);
+    } catch (const toml::parse_error &error) {
+        throw Error({std::string(error.description()), state_->place(error.source()),
+                     "expected a TOML file"});
+    }
+}
+
+Document::~Document() = default;
+
+Section Document::root() const { return Section(state_.get(), &state_->root); }
+
+void Document::finish() const {
+    std::vector<Problem> problems = state_->problems;
+    find_unknown(*state_, state_->root, problems);
+    if (problems.size() > kMaxProblems)
+        problems.resize(kMaxProblems);
+    if (!problems.empty())
+        throw Error(std::move(problems));
+}
+
+bool Section::has(std::string_view key) const {
+    state_->asked[&table_of(table_)].insert(std::string(key));
+    return table_of(table_).contains(key);
+}
+
+std::string Section::where(std::string_view key) const {
+    const toml::table &table = table_of(table_);
+    if (const toml::node *node = key.empty() ? nullptr : table.get(key))
+        return state_->place(node->source());
+    return table.source().begin ? state_->place(table.source()) : state_->file + ":1:1";
+}
+
+void Section::problem(std::string_view key, std::string what, std::string accepted) const {
+    state_->problems.push_back({std::move(what), where(key), std::move(accepted)});
+}
+
+std::optional<std::string> Section::text(std::string_view key) const {
+    if (!has(key))
+        return std::nullopt;
+    if (const auto value = table_of(table_).get(key)->value_exact<std::string>())
+        return value;
+    problem(key, "'" + std::string(key) + "' is not a text", "expected a text in quotes");
+    return std::nullopt;
+}
+
+std::string Section::required_text(std::string_view key) const {
+    if (!has(key))
+        problem(key, "'" + std::string(key) + "' is missing", "expected a text in quotes");
+    return text(key).value_or("");
+}
+
+std::optional<double> Section::number(std::string_view key, double low, double high) const {
+    if (!has(key))
+        return std::nullopt;
+    const toml::node &node = *table_of(table_).get(key);
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (value && std::isfinite(*value) && *value >= low && *value <= high)
+        return value;
+    const auto shown = [](double v) {
+        std::string s = std::to_string(v);
+        s.erase(std::max(s.find_last_not_of('0'), s.find('.') + 1) + 1);
+        return s;
+    };
+    std::string accepted = "expected a number";
+    if (low > -1e300 && high < 1e300)
+        accepted += " from " + shown(low) + " to " + shown(high);
+    else if (low > -1e300)
+        accepted += " not below " + shown(low);
+    problem(key, "'" + std::string(key) + "' is " + (value ? shown(*value) : "not a number"),
+            std::move(accepted));
+    return std::nullopt;
+}
+
+double Section::required_number(std::string_view key, double low, double high) const {
+    if (!has(key))
+        problem(key, "'" + std::string(key) + "' is missing", "expected a number");
+    return number(key, low, high).value_or(std::clamp(1.0, low, high));
+}
+
+std::optional<int> Section::integer(std::string_view key, int low, int high) const {
+    if (!has(key))
+        return std::nullopt;
+    const auto value = table_of(table_).get(key)->value_exact<std::int64_t>();
+    if (value && *value >= low && *value <= high)
+        return static_cast<int>(*value);
+    problem(key,
+            "'" + std::string(key) + "' is " + (value ? std::to_string(*value) : "not an integer"),
+            "expected an integer from " + std::to_string(low) + " to " + std::to_string(high));
+    return std::nullopt;
+}
+
+std::optional<bool> Section::flag(std::string_view key) const {
+    if (!has(key))
+        return std::nullopt;
+    if (const auto value = table_of(table_).get(key)->value_exact<bool>())
+        return value;
+    problem(key, "'" + std::string(key) + "' is neither true nor false", "expected true or false");
+    return std::nullopt;
+}
+
+std::optional<std::vector<double>> Section::numbers(std::string_view key) const {
+    if (!has(key))
+        return std::nullopt;
+    const toml::array *array = table_of(table_).get(key)->as_array();
+    std::vector<double> values;
+    for (std::size_t i = 0; array && i < array->size(); ++i) {
+        const toml::node &node = *array->get(i);
+        const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+        if (value && std::isfinite(*value))
+            values.push_back(*value);
+    }
+    if (array && values.size() == array->size())
+        return values;
+    problem(key, "'" + std::string(key) + "' is not an array of finite numbers",
+            "expected such as [0.5, 1.0]");
+    return std::nullopt;
+}
+
+std::optional<glm::dvec3> Section::vector(std::string_view key) const {
+    const auto values = numbers(key);
+    if (values && values->size() == 3)
+        return glm::dvec3((*values)[0], (*values)[1], (*values)[2]);
+    if (values)
+        problem(key,
+                "'" + std::string(key) + "' has " + std::to_string(values->size()) + " numbers",
+                "expected three, x, y and z");
+    return std::nullopt;
+}
+
+std::optional<std::vector<std::string>> Section::texts(std::string_view key) const {
+    if (!has(key))
+        return std::nullopt;
+    const toml::array *array = table_of(table_).get(key)->as_array();
+    std::vector<std::string> values;
+    for (std::size_t i = 0; array && i < array->size(); ++i)
+        if (const auto value = array->get(i)->value_exact<std::string>())
+            values.push_back(*value);
+    if (array && values.size() == array->size())
+        return values;
+    problem(key, "'" + std::string(key) + "' is not an array of texts",
+            "expected such as [\"D65\", \"A\"]");
+    return std::nullopt;
+}
+
+std::vector<std::pair<std::string, std::string>> Section::all_texts() const {
+    state_->open.insert(&table_of(table_));
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const auto &[key, node] : table_of(table_)) {
+        if (const auto value = text(key.str()))
+            all.emplace_back(key.str(), *value);
+    }
+    return all;
+}
+
+std::optional<Section> Section::section(std::string_view key) const {
+    if (!has(key))
+        return std::nullopt;
+    if (const toml::table *table = table_of(table_).get(key)->as_table()) {
+        state_->asked[table];
+        return Section(state_, table);
+    }
+    problem(key, "'" + std::string(key) + "' is not a table",
+            "expected [" + std::string(key) + "]");
+    return std::nullopt;
+}
+
+std::vector<std::pair<std::string, Section>> Section::sections() const {
+    std::vector<std::pair<std::string, Section>> all;
+    for (const auto &[key, node] : table_of(table_))
+        if (const auto inner = section(key.str()))
+            all.emplace_back(key.str(), *inner);
+    std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+        return table_of(a.second.table_).source().begin.line <
+               table_of(b.second.table_).source().begin.line;
+    });
+    return all;
+}
+
+} // namespace tsuya

@@ -1,0 +1,186 @@
+#include "tsuya/sdk/fabric.h"
+
+#include <algorithm>
+#include <numbers>
+#include <sstream>
+
+#include "tsuya/sdk/document.h"
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya {
+namespace {
+
+constexpr const char *kSchema = "tsuya-fabric 1";
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Spectrum read_spectrum(const Section &section, const char *key, double otherwise) {
+    Spectrum spectrum = Spectrum::constant(otherwise);
+    const auto inner = section.section(key);
+    if (!inner)
+        return spectrum;
+    if (const auto constant = inner->number("constant", 0, 1))
+        return Spectrum::constant(*constant);
+    spectrum.wavelength_nm = inner->numbers("wavelength_nm").value_or(std::vector<double>{560});
+    spectrum.value = inner->numbers("value").value_or(std::vector<double>{otherwise});
+    try {
+        check_spectrum(spectrum, 0, 1, inner->where());
+    } catch (const Error &error) {
+        inner->problem("", error.problems()[0].what, error.problems()[0].accepted);
+    }
+    return spectrum;
+}
+
+std::optional<ReflectanceTable> read_views(const Section &root, Symmetry symmetry) {
+    const auto views = root.section("views");
+    if (!views)
+        return std::nullopt;
+    const auto theta = views->numbers("theta_deg").value_or(std::vector<double>{});
+    const auto phi = views->numbers("phi_deg").value_or(std::vector<double>{});
+    const auto brdf = views->numbers("brdf_per_sr").value_or(std::vector<double>{});
+    auto sigma = views->numbers("sigma_per_sr").value_or(std::vector<double>(brdf.size()));
+    if (theta.size() != brdf.size() || phi.size() != brdf.size() || sigma.size() != brdf.size()) {
+        views->problem("brdf_per_sr", "the arrays of the views differ in length",
+                       "expected theta_deg, phi_deg and brdf_per_sr of one length");
+        return std::nullopt;
+    }
+    ReflectanceTable table{.symmetry = symmetry};
+    for (std::size_t i = 0; i < brdf.size(); ++i) {
+        if (!(theta[i] >= 0 && theta[i] <= 90 && brdf[i] >= 0 && sigma[i] >= 0)) {
+            views->problem("brdf_per_sr", "view " + std::to_string(i) + " is out of range",
+                           "expected theta_deg of 0 to 90 and values not below 0");
+            return std::nullopt;
+        }
+        table.rows.push_back({0, 0, theta[i] * kDegree, phi[i] * kDegree, brdf[i], sigma[i]});
+    }
+    return table;
+}
+
+Symmetry read_symmetry(const Section &root) {
+    const std::string name = root.text("symmetry").value_or(name_of(Symmetry::orthotropic));
+    const std::vector<std::string> known = {"orthotropic", "half-turn", "none"};
+    for (const Symmetry s : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
+        if (name == name_of(s))
+            return s;
+    root.problem("symmetry", "unknown symmetry '" + name + "'", accepted_names(name, known));
+    return Symmetry::orthotropic;
+}
+
+void write_numbers(std::ostream &out, const char *key, const std::vector<double> &values) {
+    out << key << " = [";
+    for (std::size_t i = 0; i < values.size(); ++i)
+        out << (i == 0 ? "" : i % 12 == 0 ? ",\n    " : ", ") << values[i];
+    out << "]\n";
+}
+
+void write_spectrum(std::ostream &out, const char *key, const Spectrum &spectrum) {
+    out << "\n[" << key << "]\n";
+    if (spectrum.is_constant()) {
+        out << "constant = " << spectrum.value[0] << "\n";
+        return;
+    }
+    write_numbers(out, "wavelength_nm", spectrum.wavelength_nm);
+    write_numbers(out, "value", spectrum.value);
+}
+
+// A TOML basic string.
+std::string quoted(const std::string &text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            result += '\\';
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+    return result + '"';
+}
+
+} // namespace
+
+bool Material::has_diffuse() const {
+    return std::any_of(dye.value.begin(), dye.value.end(), [](double v) { return v > 0; });
+}
+
+bool Material::has_specular() const {
+    return specular && std::any_of(specular_tint.value.begin(), specular_tint.value.end(),
+                                   [](double v) { return v > 0; });
+}
+
+Material resolve(const Fabric &fabric, const std::string &where) {
+    check_spectrum(fabric.dye, 0, 1, where + ".dye");
+    check_spectrum(fabric.specular_tint, 0, 1, where + ".specular_tint");
+    Material material{.specular_tint = fabric.specular_tint, .dye = fabric.dye};
+    if (!fabric.bard || fabric.bard->peak() == 0)
+        return material;
+    const double f0 = fabric.f0.value_or(std::min(1.0, fabric.bard->at({0, 0, 1})));
+    if (!(f0 > 0 && f0 <= 1))
+        throw Error({"f0 is " + std::to_string(f0), where + ".f0",
+                     "expected a reflectance above 0 and not above 1"});
+    material.specular = TakedaBrdf(*fabric.bard, f0);
+    return material;
+}
+
+Fabric read_fabric(const std::filesystem::path &file) {
+    const Document document(file);
+    const Section root = document.root();
+    if (const std::string schema = root.required_text("schema"); schema != kSchema)
+        root.problem("schema", "the schema is '" + schema + "'",
+                     std::string("expected \"") + kSchema + "\"");
+    Fabric fabric{.name = root.required_text("name")};
+    fabric.f0 = root.number("f0", 1e-6, 1);
+    fabric.dye = read_spectrum(root, "dye", 0);
+    fabric.specular_tint = read_spectrum(root, "specular_tint", 1);
+    if (const auto keys = root.section("provenance"))
+        for (auto &[key, value] : keys->all_texts())
+            fabric.keys[key] = value;
+    const auto table = read_views(root, read_symmetry(root));
+    std::optional<BardSmoothness> smoothness;
+    if (const auto section = root.section("smoothness"))
+        smoothness = {.weft_support = section->required_number("weft_support", 0.01, 100),
+                      .warp_support = section->required_number("warp_support", 0.01, 100),
+                      .noise_share = section->required_number("noise_share", 1e-12, 1)};
+    document.finish();
+    if (table) {
+        const std::string where = file.string() + ": views";
+        fabric.bard = smoothness ? Bard::fit(*table, *smoothness, where) : Bard::fit(*table, where);
+    }
+    return fabric;
+}
+
+void write_fabric(const Fabric &fabric, const std::filesystem::path &file) {
+    std::ostringstream out;
+    out.precision(6);
+    out << "schema = \"" << kSchema << "\"\nname = " << quoted(fabric.name) << "\n";
+    if (fabric.bard)
+        out << "symmetry = \"" << name_of(fabric.bard->symmetry()) << "\"\n";
+    if (fabric.f0)
+        out << "f0 = " << *fabric.f0 << "\n";
+    if (!fabric.keys.empty())
+        out << "\n[provenance]\n";
+    for (const auto &[key, value] : fabric.keys)
+        out << quoted(key) << " = " << quoted(value) << "\n";
+    write_spectrum(out, "dye", fabric.dye);
+    write_spectrum(out, "specular_tint", fabric.specular_tint);
+    if (fabric.bard) {
+        const BardSmoothness &s = fabric.bard->smoothness();
+        out << "\n[smoothness]\nweft_support = " << s.weft_support
+            << "\nwarp_support = " << s.warp_support << "\nnoise_share = " << s.noise_share
+            << "\n\n[views]\n";
+        std::vector<double> theta, phi, brdf, sigma;
+        bool any_sigma = false;
+        for (const BardView &v : fabric.bard->views()) {
+            theta.push_back(v.theta / kDegree);
+            phi.push_back(v.phi / kDegree);
+            brdf.push_back(v.brdf_per_sr);
+            sigma.push_back(v.sigma_per_sr);
+            any_sigma |= v.sigma_per_sr > 0;
+        }
+        write_numbers(out, "theta_deg", theta);
+        write_numbers(out, "phi_deg", phi);
+        write_numbers(out, "brdf_per_sr", brdf);
+        if (any_sigma)
+            write_numbers(out, "sigma_per_sr", sigma);
+    }
+    write_file(file, out.str());
+}
+
+} // namespace tsuya

@@ -1,0 +1,208 @@
+#include "tsuya/sdk/reflectance_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya {
+namespace {
+
+constexpr std::array<std::string_view, 6> kColumns = {"theta_i_deg", "phi_i_deg",   "theta_r_deg",
+                                                      "phi_r_deg",   "brdf_per_sr", "sigma_per_sr"};
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos)
+        return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+// Reads the lines of a table and remembers where it is, for errors.
+class TableReader {
+  public:
+    explicit TableReader(const std::filesystem::path &file)
+        : name_(file.string()), text_(read_file(file)) {}
+
+    ReflectanceTable read() {
+        std::string_view rest = text_;
+        while (!rest.empty() && problems_.size() < kMaxProblems) {
+            const std::string_view line = rest.substr(0, rest.find('\n'));
+            rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+            ++line_;
+            read_line(line);
+        }
+        if (problems_.empty() && table_.rows.empty())
+            problem("the table has no row", 1, "expected rows below the header line " + header());
+        if (!problems_.empty())
+            throw Error(std::move(problems_));
+        return std::move(table_);
+    }
+
+  private:
+    void read_line(std::string_view line) {
+        const std::string_view content = trimmed(line);
+        if (content.empty())
+            return;
+        if (content.front() == '#')
+            read_key(trimmed(content.substr(1)));
+        else if (!seen_header_)
+            read_header(content);
+        else
+            read_row(line);
+    }
+
+    void read_key(std::string_view content) {
+        const auto colon = content.find(':');
+        if (colon == std::string_view::npos)
+            return;
+        const std::string key(trimmed(content.substr(0, colon)));
+        const std::string value(trimmed(content.substr(colon + 1)));
+        if (key != "symmetry") {
+            table_.keys[key] = value;
+            return;
+        }
+        for (const Symmetry s : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
+            if (value == name_of(s)) {
+                table_.symmetry = s;
+                return;
+            }
+        const std::array<std::string, 3> known = {"orthotropic", "half-turn", "none"};
+        problem("unknown symmetry '" + value + "'", 1, accepted_names(value, known));
+    }
+
+    void read_header(std::string_view content) {
+        seen_header_ = true;
+        const std::string full = header();
+        const std::string without_sigma = full.substr(0, full.rfind(','));
+        if (content == full)
+            columns_ = 6;
+        else if (content == without_sigma)
+            columns_ = 5;
+        else
+            problem("the header line is '" + std::string(content) + "'", 1,
+                    "expected " + without_sigma + "[,sigma_per_sr]");
+    }
+
+    void read_row(std::string_view line) {
+        std::array<double, 6> value{};
+        std::size_t begin = 0;
+        for (std::size_t c = 0; c < columns_; ++c) {
+            const std::size_t end = std::min(line.find(',', begin), line.size());
+            const std::optional<double> v = number(line.substr(begin, end - begin), begin + 1, c);
+            if (!v)
+                return;
+            value[c] = *v;
+            const bool last = c + 1 == columns_;
+            if (last != (end == line.size())) {
+                problem("the row has " + std::string(last ? "more" : "fewer") + " than " +
+                            std::to_string(columns_) + " columns",
+                        end + 1, "expected " + header());
+                return;
+            }
+            begin = end + 1;
+        }
+        table_.rows.push_back({value[0] * kDegree, value[1] * kDegree, value[2] * kDegree,
+                               value[3] * kDegree, value[4], value[5]});
+    }
+
+    std::optional<double> number(std::string_view field, std::size_t column, std::size_t c) {
+        const std::string_view content = trimmed(field);
+        double v = 0;
+        const auto [end, code] =
+            std::from_chars(content.data(), content.data() + content.size(), v);
+        const std::string shown = std::string(kColumns[c]) + " is '" + std::string(content) + "'";
+        if (code != std::errc{} || end != content.data() + content.size() || !std::isfinite(v))
+            problem(shown, column, "expected a finite number");
+        else if (c >= 4 && v < 0)
+            problem(shown, column, "expected a number not below 0");
+        else if ((c == 0 || c == 2) && !(v >= 0 && v <= 90))
+            problem(shown, column, "expected an angle from the normal of 0 to 90 degrees");
+        else if ((c == 1 || c == 3) && !(std::abs(v) <= 360))
+            problem(shown, column, "expected an angle from the weft of -360 to 360 degrees");
+        else
+            return v;
+        return std::nullopt;
+    }
+
+    static std::string header() {
+        std::string text;
+        for (const std::string_view column : kColumns)
+            text += (text.empty() ? "" : ",") + std::string(column);
+        return text;
+    }
+
+    void problem(std::string what, std::size_t column, std::string accepted) {
+        problems_.push_back({std::move(what),
+                             name_ + ":" + std::to_string(line_) + ":" + std::to_string(column),
+                             std::move(accepted)});
+    }
+
+    std::string name_, text_;
+    ReflectanceTable table_;
+    std::vector<Problem> problems_;
+    std::size_t line_ = 0, columns_ = 0;
+    bool seen_header_ = false;
+};
+
+} // namespace
+
+const char *name_of(Symmetry symmetry) {
+    switch (symmetry) {
+    case Symmetry::none:
+        return "none";
+    case Symmetry::half_turn:
+        return "half-turn";
+    case Symmetry::orthotropic:
+        break;
+    }
+    return "orthotropic";
+}
+
+bool ReflectanceTable::has_sigma() const {
+    return std::any_of(rows.begin(), rows.end(), [](const auto &r) { return r.sigma_per_sr > 0; });
+}
+
+ReflectanceTable ReflectanceTable::normal_incidence() const {
+    ReflectanceTable result{.keys = keys, .symmetry = symmetry};
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(result.rows),
+                 [](const ReflectanceRow &r) { return r.theta_i < 1e-9; });
+    return result;
+}
+
+ReflectanceTable read_reflectance_table(const std::filesystem::path &file) {
+    return TableReader(file).read();
+}
+
+void write_reflectance_table(const ReflectanceTable &table, const std::filesystem::path &file) {
+    std::string text;
+    for (const auto &[key, value] : table.keys)
+        text += "# " + key + ": " + value + "\n";
+    text += std::string("# symmetry: ") + name_of(table.symmetry) + "\n";
+    const bool sigma = table.has_sigma();
+    text += "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr";
+    text += sigma ? ",sigma_per_sr\n" : "\n";
+    for (const ReflectanceRow &r : table.rows) {
+        char line[160];
+        int n =
+            std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.6g", r.theta_i / kDegree,
+                          r.phi_i / kDegree, r.theta_r / kDegree, r.phi_r / kDegree, r.brdf_per_sr);
+        text.append(line, static_cast<std::size_t>(n));
+        if (sigma) {
+            n = std::snprintf(line, sizeof line, ",%.3g", r.sigma_per_sr);
+            text.append(line, static_cast<std::size_t>(n));
+        }
+        text += '\n';
+    }
+    write_file(file, text);
+}
+
+} // namespace tsuya
