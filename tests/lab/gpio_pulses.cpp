@@ -1,0 +1,49 @@
+// Pulses on real lines until the train ends or a signal comes: what gpio_guest.sh watches.
+// gpio_pulses CHIP SHUTTER LAMP WIDTH_MS PERIOD_MS COUNT [low]
+#include "tsuya/lab/pulse_job.h"
+#include "tsuya/sdk/error.h"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+// [doc:pulses]
+namespace {
+
+std::atomic<bool> stop{false}; // a signal handler can only reach something global
+
+/// Returns the exit status of the program.
+int run(const tsuya::lab::PulseJob &job) {
+    std::signal(SIGINT, [](int) { stop = true; });
+    std::signal(SIGTERM, [](int) { stop = true; });
+    try {
+        const tsuya::lab::PulseReport report = run_pulse_job(job, {.stop = &stop});
+        std::printf("%zu pulses, %.3f ms late at most\n", report.pulses.size(),
+                    static_cast<double>(report.largest_late.count()) * 1e-6);
+        return 0;
+    } catch (const tsuya::Error &error) { // lamp and shutter are off here, too
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    } catch (const tsuya::Interrupted &interrupted) {
+        std::fprintf(stderr, "%s\n", interrupted.what());
+        return 3;
+    }
+}
+
+} // namespace
+// [/doc:pulses]
+
+int main(int argc, char **argv) {
+    if (argc < 7)
+        return 2;
+    const bool active_low = argc > 7 && std::string_view(argv[7]) == "low";
+    const auto milliseconds = [](const char *text) {
+        return std::chrono::milliseconds(std::atoi(text));
+    };
+    return run({.train = {.width = milliseconds(argv[4]),
+                          .period = milliseconds(argv[5]),
+                          .count = std::atoi(argv[6])},
+                .shutter = {.chip = argv[1], .line = argv[2], .active_low = active_low},
+                .lamp = {.chip = argv[1], .line = argv[3], .active_low = active_low}});
+}
