@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// Chromatic adaptation: what an eye that is used to one white sees, as seen under another.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace tsuya {
+
+/// `none` shows the colours as a daylight-adapted camera would record them; the others let the eye
+/// adapt fully to the lamp, in the cone space of Bradford or of CIECAM02.
+enum class Adaptation { none, bradford, cat02 };
+
+/// The names `none`, `bradford`, `cat02`.
+std::vector<std::string> adaptation_names();
+/// Throws Error for an unknown name, with the known ones and the nearest.
+Adaptation parse_adaptation(std::string_view name);
+std::string to_string(Adaptation adaptation);
+
+/// The matrix (GLM: column-major) that takes XYZ under `from_white` to XYZ under `to_white`, in von
+/// Kries' form: cones of both whites by the matrix of [Lam] or [Li], cone by cone scaled, back.
+/// Maps `from_white` on `to_white`; the identity for `none`. Whites are XYZ with Y > 0. Throws
+/// Error if a cone signal of `from_white` is not positive.
+glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white,
+                             const glm::dvec3 &to_white);
+
+} // namespace tsuya

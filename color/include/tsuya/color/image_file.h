@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// Picture files. A file appears under its name only when it is complete; a failed write leaves
+/// nothing behind.
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "tsuya/sdk/image.h"
+#include "tsuya/sdk/spectral_image.h"
+
+namespace tsuya {
+
+/// Writes a PNG of a display picture: values in [0, 1], already encoded (see display), clamped; 1
+/// (grey), 3 (RGB) or 4 (RGBA) channels. `bits` is 8 or 16. Throws Error at the path for another
+/// number of channels or bits, a value that is NaN, or a file that cannot be written.
+void write_png(const std::filesystem::path &path, const Image &image, int bits = 8);
+
+/// Reads any picture that OpenImageIO reads (PNG, JPEG, TIFF, EXR, ...): the values as the file has
+/// them (encoded for a PNG: 255 becomes 1; linear for an EXR), channels named as in the file, the
+/// first part of a file of many. Throws Error at the path.
+Image read_image(const std::filesystem::path &path);
+
+/// How samples are stored. Half has 11 significant bits and ends at 65504.
+enum class SampleType { float32, half };
+
+struct ExrOptions {
+    SampleType samples = SampleType::float32;
+    std::map<std::string, std::string> metadata{}; ///< written as `tsuya:meta:<key>`
+};
+
+/// Writes all channels by their names. Floats come back exactly. Throws Error at the path, also for
+/// a channel name that is empty or used twice.
+void write_exr(const std::filesystem::path &path, const Image &image,
+               const ExrOptions &options = {});
+
+/// Writes light transport as a spectral EXR in the layout of [Fichet]: channel k of group `key` is
+/// `key.S0.<centre>nm` with a decimal comma, e.g. `key.S0.400,000nm`; AOVs are layers
+/// `aov.<name>.<channel>`. Attributes: `tsuya:schema`, `tsuya:basis`, `tsuya:group.<i>`,
+/// `tsuya:aov.<i>`, and the metadata as `tsuya:meta:<key>`. Throws Error at the path, also for
+/// sizes that do not agree and names that are empty or used twice.
+void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &image,
+                        SampleType samples = SampleType::float32);
+
+/// Reads what write_spectral_exr wrote; floats are exact. Throws Error at the path: no such file,
+/// no EXR, none of ours, a channel that is missing, cut short.
+SpectralImage read_spectral_exr(const std::filesystem::path &path);
+
+/// The name of a spectral channel, e.g. `key.S0.400,000nm`.
+std::string spectral_channel_name(const std::string &group, double wavelength_nm);
+
+} // namespace tsuya

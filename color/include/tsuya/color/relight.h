@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// From lamp-free light transport to a picture under any lamp: K multiply-adds a pixel.
+
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "tsuya/color/observer.h"
+#include "tsuya/sdk/image.h"
+#include "tsuya/sdk/spectral_image.h"
+#include "tsuya/sdk/spectrum.h"
+
+namespace tsuya {
+
+/// XYZ that each basis function adds: the sums of lamp x observer x basis at 1 nm over 360-830 nm,
+/// divided so that T = 1 in all channels gives Y = 1. One entry a channel. Throws Error if the lamp
+/// has no visible power.
+std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
+                                    Observer observer = Observer::cie1931);
+
+struct RelightOptions {
+    Observer observer = Observer::cie1931;
+    /// Luminous power of each light group beside the others, >= 0; empty is 1 for all.
+    std::vector<double> group_scale{};
+};
+
+/// The picture under `lamps`: one lamp for all light groups, or one for each, in the order of
+/// `transport.groups`. Channels X, Y, Z: linear, scene-referred, relative to each lamp (a perfect
+/// white that a group lights with irradiance pi has Y = 1). Rows run on all cores. Throws Error if
+/// the numbers of lamps or scales do not fit the groups, or a lamp has no visible power.
+Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
+              const RelightOptions &options = {});
+Image relight(const SpectralImage &transport, const Spectrum &lamp,
+              const RelightOptions &options = {});
+
+} // namespace tsuya

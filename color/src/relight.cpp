@@ -1,0 +1,108 @@
+#include "tsuya/color/relight.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "rows.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya {
+namespace {
+
+/// X, Y, Z of one channel; the fourth lane is padding so that one register holds them.
+using Weights = std::array<float, 4>;
+
+// Four sums at a time: their additions do not wait for one another.
+void add_pixel(const float *t, const std::vector<Weights> &weights, float *xyz) {
+    std::array<Weights, 4> sum{};
+    std::size_t k = 0;
+    for (; k + 4 <= weights.size(); k += 4)
+        for (std::size_t j = 0; j < 4; ++j)
+            for (std::size_t c = 0; c < 4; ++c)
+                sum[j][c] += t[k + j] * weights[k + j][c];
+    for (; k < weights.size(); ++k)
+        for (std::size_t c = 0; c < 4; ++c)
+            sum[0][c] += t[k] * weights[k][c];
+    for (std::size_t c = 0; c < 3; ++c)
+        xyz[c] += (sum[0][c] + sum[1][c]) + (sum[2][c] + sum[3][c]);
+}
+
+std::vector<std::vector<Weights>> group_weights(const SpectralImage &transport,
+                                                std::span<const Spectrum> lamps,
+                                                const RelightOptions &options) {
+    std::vector<std::vector<Weights>> all;
+    for (std::size_t g = 0; g < transport.groups.size(); ++g) {
+        const double scale = options.group_scale.empty() ? 1.0 : options.group_scale[g];
+        std::vector<Weights> weights;
+        for (const glm::dvec3 &xyz :
+             lamp_matrix(lamps[lamps.size() == 1 ? 0 : g], transport.basis, options.observer))
+            weights.push_back({static_cast<float>(scale * xyz.x), static_cast<float>(scale * xyz.y),
+                               static_cast<float>(scale * xyz.z), 0.0f});
+        all.push_back(std::move(weights));
+    }
+    return all;
+}
+
+void check(const SpectralImage &transport, std::span<const Spectrum> lamps,
+           const RelightOptions &options) {
+    const std::size_t groups = transport.groups.size();
+    const std::string number = std::to_string(groups);
+    if (lamps.size() != 1 && lamps.size() != groups)
+        throw Error(
+            {"there are " + std::to_string(lamps.size()) + " lamps for " + number + " light groups",
+             "lamps", "expected one lamp, or one for each light group"});
+    if (!options.group_scale.empty() && options.group_scale.size() != groups)
+        throw Error({"there are " + std::to_string(options.group_scale.size()) + " scales for " +
+                         number + " light groups",
+                     "group_scale", "expected none, or one for each light group"});
+    for (std::size_t g = 0; g < options.group_scale.size(); ++g)
+        if (!(options.group_scale[g] >= 0) || std::isinf(options.group_scale[g]))
+            throw Error({"the scale is " + std::to_string(options.group_scale[g]),
+                         "group_scale." + transport.groups[g], "expected 0 or more"});
+}
+
+} // namespace
+
+std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
+                                    Observer observer) {
+    std::vector<glm::dvec3> matrix(static_cast<std::size_t>(basis.count), glm::dvec3(0.0));
+    double white_y = 0;
+    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
+        const glm::dvec3 weight = lamp.at(nm) * color_matching(observer, nm);
+        white_y += weight.y;
+        for (int k = 0; k < basis.count; ++k)
+            matrix[static_cast<std::size_t>(k)] += basis.weight(k, nm) * weight;
+    }
+    if (!(white_y > 0))
+        throw Error({"the lamp has no visible power", "lamp",
+                     "expected a spectrum with positive power between 360 and 830 nm"});
+    for (glm::dvec3 &xyz : matrix)
+        xyz /= white_y;
+    return matrix;
+}
+
+Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
+              const RelightOptions &options) {
+    check(transport, lamps, options);
+    const auto weights = group_weights(transport, lamps, options);
+    Image xyz = Image::make(transport.width, transport.height, {"X", "Y", "Z"});
+    const auto channels = static_cast<std::size_t>(transport.basis.count);
+    const std::size_t row = static_cast<std::size_t>(transport.width) * channels;
+    for_rows(transport.height, row * weights.size(), [&](int first, int end) {
+        for (std::size_t g = 0; g < weights.size(); ++g)
+            for (int y = first; y < end; ++y) {
+                const float *t = transport.pixel(g, 0, y);
+                float *out = xyz.pixel(0, y);
+                for (int x = 0; x < transport.width; ++x, t += channels, out += 3)
+                    add_pixel(t, weights[g], out);
+            }
+    });
+    return xyz;
+}
+
+Image relight(const SpectralImage &transport, const Spectrum &lamp, const RelightOptions &options) {
+    return relight(transport, std::span<const Spectrum>(&lamp, 1), options);
+}
+
+} // namespace tsuya

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <unordered_map>
+
+#include "channels.h"
+#include "oiio_file.h"
+#include "rows.h"
+#include "tsuya/color/image_file.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya {
+namespace {
+
+// Rises when a file of an earlier version could not be read as before.
+constexpr const char *kSchema = "tsuya-spectral-1";
+constexpr const char *kMetaPrefix = "tsuya:meta:";
+constexpr const char *kOurs = "expected an EXR that tsuya wrote (see write_spectral_exr)";
+
+std::string group_key(std::size_t i) { return "tsuya:group." + std::to_string(i); }
+std::string aov_key(std::size_t i) { return "tsuya:aov." + std::to_string(i); }
+std::string aov_channel_key(std::size_t aov, std::size_t channel) {
+    return aov_key(aov) + ".channel." + std::to_string(channel);
+}
+std::string aov_channel_name(const std::string &aov, const std::string &channel) {
+    return "aov." + aov + '.' + channel;
+}
+
+std::string basis_text(const SpectralBasis &basis) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "hat " << basis.count << ' ' << basis.first_nm << ' ' << basis.last_nm;
+    return text.str();
+}
+
+std::vector<std::string> group_channels(const std::string &group, const SpectralBasis &basis) {
+    std::vector<std::string> names;
+    for (int k = 0; k < basis.count; ++k)
+        names.push_back(spectral_channel_name(group, basis.centre_nm(k)));
+    return names;
+}
+
+void check(const SpectralImage &image, const std::string &where) {
+    const SpectralBasis &basis = image.basis;
+    const bool good_basis = basis.count > 0 && std::isfinite(basis.first_nm) &&
+                            std::isfinite(basis.last_nm) && basis.first_nm < basis.last_nm;
+    const std::size_t values = static_cast<std::size_t>(std::max(0, image.width)) *
+                               static_cast<std::size_t>(std::max(0, image.height)) *
+                               static_cast<std::size_t>(std::max(0, basis.count)) *
+                               image.groups.size();
+    if (!good_basis || values == 0 || image.transport.size() != values)
+        throw Error({"the transport holds " + std::to_string(image.transport.size()) +
+                         " values where its size, groups and basis say " + std::to_string(values),
+                     where, "expected width x height x channels x groups values, at least one"});
+    if (image.aovs.size() != image.aov_names.size())
+        throw Error({"there are " + std::to_string(image.aovs.size()) + " AOVs and " +
+                         std::to_string(image.aov_names.size()) + " names of them",
+                     where, "expected a name for each"});
+    for (std::size_t i = 0; i < image.aovs.size(); ++i) {
+        check_image(image.aovs[i], where + ": aovs." + image.aov_names[i]);
+        if (image.aovs[i].width != image.width || image.aovs[i].height != image.height)
+            throw Error({"the AOV '" + image.aov_names[i] + "' has another size", where,
+                         "expected the size of the picture"});
+    }
+    for (const auto *names : {&image.groups, &image.aov_names})
+        if (std::find(names->begin(), names->end(), "") != names->end())
+            throw Error({"a light group or AOV has no name", where, "expected names"});
+}
+
+void describe(const SpectralImage &image, OutputPicture &picture) {
+    picture.attributes["tsuya:schema"] = kSchema;
+    picture.attributes["tsuya:basis"] = basis_text(image.basis);
+    // [Fichet] section 3: the version of the layout, and the unit of the S0 channels. Transport is
+    // relative to the lamp, so it has none.
+    picture.attributes["spectralLayoutVersion"] = "1.0";
+    picture.attributes["emissiveUnits"] = "relative to the lamp";
+    for (std::size_t g = 0; g < image.groups.size(); ++g) {
+        picture.attributes[group_key(g)] = image.groups[g];
+        for (std::string &name : group_channels(image.groups[g], image.basis))
+            picture.channels.push_back(std::move(name));
+    }
+    for (std::size_t i = 0; i < image.aovs.size(); ++i) {
+        picture.attributes[aov_key(i)] = image.aov_names[i];
+        for (std::size_t c = 0; c < image.aovs[i].channels.size(); ++c) {
+            const std::string &channel = image.aovs[i].channels[c];
+            picture.attributes[aov_channel_key(i, c)] = channel;
+            picture.channels.push_back(aov_channel_name(image.aov_names[i], channel));
+        }
+    }
+    for (const auto &[key, value] : image.metadata)
+        picture.attributes[kMetaPrefix + key] = value;
+}
+
+/// What the attributes of a file say, with the pictures still empty.
+SpectralImage parse_header(const InputPicture &picture, const std::string &where) {
+    const auto find = [&](const std::string &key) {
+        const auto found = picture.attributes.find(key);
+        return found == picture.attributes.end() ? nullptr : &found->second;
+    };
+    const std::string *schema = find("tsuya:schema");
+    if (picture.format != "openexr" || !schema)
+        throw Error({"the file is no spectral picture", where, kOurs});
+    if (*schema != kSchema)
+        throw Error({"the file has the schema '" + *schema + "'", where,
+                     std::string("expected ") + kSchema});
+    SpectralBasis basis;
+    std::string kind;
+    const std::string *basis_value = find("tsuya:basis");
+    std::istringstream text(basis_value ? *basis_value : "");
+    if (!(text >> kind >> basis.count >> basis.first_nm >> basis.last_nm) || kind != "hat" ||
+        basis.count < 1 || !(basis.first_nm < basis.last_nm))
+        throw Error({"the attribute tsuya:basis is missing or wrong", where,
+                     "expected hat COUNT FIRST_NM LAST_NM"});
+    std::vector<std::string> groups;
+    while (const std::string *group = find(group_key(groups.size())))
+        groups.push_back(*group);
+    if (groups.empty())
+        throw Error({"the attribute tsuya:group.0 is missing", where, kOurs});
+    SpectralImage image =
+        SpectralImage::make(picture.image.width, picture.image.height, basis, std::move(groups));
+    while (const std::string *aov = find(aov_key(image.aovs.size()))) {
+        std::vector<std::string> channels;
+        while (const auto *channel = find(aov_channel_key(image.aovs.size(), channels.size())))
+            channels.push_back(*channel);
+        image.aovs.push_back(Image::make(image.width, image.height, std::move(channels)));
+        image.aov_names.push_back(*aov);
+    }
+    for (const auto &[key, value] : picture.attributes)
+        if (key.starts_with(kMetaPrefix))
+            image.metadata[key.substr(std::string_view(kMetaPrefix).size())] = value;
+    return image;
+}
+
+/// Channels are looked up by name: OpenImageIO gives them in an order of its own.
+class ChannelFinder {
+  public:
+    ChannelFinder(const Image &image, std::string where) : where_(std::move(where)) {
+        for (std::size_t c = 0; c < image.channels.size(); ++c)
+            index_[image.channels[c]] = c;
+    }
+    std::vector<std::size_t> find(const std::vector<std::string> &names) const {
+        std::vector<std::size_t> indices;
+        for (const std::string &name : names) {
+            const auto found = index_.find(name);
+            if (found == index_.end())
+                throw Error({"the channel '" + name + "' is missing", where_, kOurs});
+            indices.push_back(found->second);
+        }
+        return indices;
+    }
+
+  private:
+    std::string where_;
+    std::unordered_map<std::string, std::size_t> index_;
+};
+
+/// Copies the channels `from` of each pixel of row `y` to `out`, side by side.
+void copy_row(const Image &image, int y, const std::vector<std::size_t> &from, float *out) {
+    const float *in = image.pixel(0, y);
+    for (int x = 0; x < image.width; ++x, in += image.channels.size())
+        for (const std::size_t channel : from)
+            *out++ = in[channel];
+}
+
+} // namespace
+
+std::string spectral_channel_name(const std::string &group, double wavelength_nm) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.3f", wavelength_nm);
+    std::string text = number;
+    std::replace(text.begin(), text.end(), '.', ','); // [Fichet] dots separate layers
+    return group + ".S0." + text + "nm";
+}
+
+void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &image,
+                        SampleType samples) {
+    check(image, path.string());
+    OutputPicture picture{.width = image.width, .height = image.height, .samples = samples};
+    describe(image, picture);
+    const auto channels = static_cast<std::size_t>(image.basis.count);
+    picture.fill_row = [&](int y, float *out) {
+        for (int x = 0; x < image.width; ++x) {
+            for (std::size_t g = 0; g < image.groups.size(); ++g)
+                out = std::copy_n(image.pixel(g, x, y), channels, out);
+            for (const Image &aov : image.aovs)
+                out = std::copy_n(aov.pixel(x, y), aov.channels.size(), out);
+        }
+    };
+    write_exr_picture(path, picture);
+}
+
+SpectralImage read_spectral_exr(const std::filesystem::path &path) {
+    const InputPicture picture = read_picture(path);
+    SpectralImage image = parse_header(picture, path.string());
+    const ChannelFinder finder(picture.image, path.string());
+    std::vector<std::vector<std::size_t>> from_group, from_aov;
+    for (const std::string &group : image.groups)
+        from_group.push_back(finder.find(group_channels(group, image.basis)));
+    for (std::size_t i = 0; i < image.aovs.size(); ++i) {
+        std::vector<std::string> names;
+        for (const std::string &channel : image.aovs[i].channels)
+            names.push_back(aov_channel_name(image.aov_names[i], channel));
+        from_aov.push_back(finder.find(names));
+    }
+    const std::size_t row = static_cast<std::size_t>(image.width) * picture.image.channels.size();
+    for_rows(image.height, row, [&](int first, int end) {
+        for (int y = first; y < end; ++y) {
+            for (std::size_t g = 0; g < from_group.size(); ++g)
+                copy_row(picture.image, y, from_group[g], image.pixel(g, 0, y));
+            for (std::size_t i = 0; i < from_aov.size(); ++i)
+                copy_row(picture.image, y, from_aov[i], image.aovs[i].pixel(0, y));
+        }
+    });
+    return image;
+}
+
+} // namespace tsuya

@@ -1,0 +1,247 @@
+#include "tsuya/color/image_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "color_test.h"
+
+namespace tsuya {
+namespace {
+
+Image ramp(int width, int height, std::vector<std::string> channels) {
+    Image image = Image::make(width, height, std::move(channels));
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+        image.data[i] = static_cast<float>(i % 256) / 255.0f;
+    return image;
+}
+
+SpectralImage some_transport() {
+    SpectralImage image = SpectralImage::make(37, 29, {.count = 16}, {"key", "a fill.left"});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-1.0f, 40.0f);
+    for (float &t : image.transport)
+        t = uniform(random);
+    image.aov_names = {"coverage", "normal"};
+    image.aovs = {ramp(37, 29, {"Y"}), ramp(37, 29, {"z", "x", "R"})};
+    image.metadata = {{"samples_per_pixel", "64"}, {"note", "K = 16; \"quoted\""}, {"empty", ""}};
+    return image;
+}
+
+bool same_bits(const std::vector<float> &a, const std::vector<float> &b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+TEST(ImageFile, PngKeepsCodeValues) {
+    const test::Folder folder;
+    for (const auto &channels : {std::vector<std::string>{"Y"}, {"R", "G", "B"}}) {
+        const Image image = ramp(31, 17, channels);
+        for (const int bits : {8, 16}) {
+            write_png(folder / "p.png", image, bits);
+            const Image back = read_image(folder / "p.png");
+            ASSERT_EQ(back.width, 31);
+            ASSERT_EQ(back.height, 17);
+            ASSERT_EQ(back.channels.size(), channels.size());
+            for (std::size_t i = 0; i < image.data.size(); ++i)
+                ASSERT_NEAR(back.data[i], image.data[i], 1e-6f) << i;
+        }
+    }
+    EXPECT_EQ(folder.size(), 1);
+}
+
+TEST(ImageFile, PngClampsAndRounds) {
+    const test::Folder folder;
+    write_png(folder / "p.png",
+              Image{3, 1, {"Y"}, {-0.5f, std::numeric_limits<float>::infinity(), 100.4f / 255}});
+    const Image back = read_image(folder / "p.png");
+    EXPECT_EQ(back.data[0], 0.0f);
+    EXPECT_EQ(back.data[1], 1.0f);
+    EXPECT_NEAR(back.data[2], 100.0f / 255, 1e-6f);
+}
+
+TEST(ImageFile, ExrIsExactAndKeepsNames) {
+    const test::Folder folder;
+    Image image = ramp(40, 33, {"Z", "b", "X", "layer.q"});
+    image.data[5] = std::numeric_limits<float>::infinity();
+    image.data[6] = 1e-30f;
+    write_exr(folder / "x.exr", image);
+    const Image back = read_image(folder / "x.exr");
+    ASSERT_EQ(back.channels.size(), 4u);
+    for (std::size_t c = 0; c < 4; ++c) {
+        const auto at = static_cast<std::size_t>(
+            std::find(back.channels.begin(), back.channels.end(), image.channels[c]) -
+            back.channels.begin());
+        ASSERT_LT(at, 4u) << image.channels[c];
+        for (std::size_t p = 0; p < image.data.size(); p += 4)
+            ASSERT_EQ(back.data[p + at], image.data[p + c]);
+    }
+    write_exr(folder / "half.exr", image, {.samples = SampleType::half});
+    EXPECT_LT(std::filesystem::file_size(folder / "half.exr"),
+              std::filesystem::file_size(folder / "x.exr"));
+}
+
+TEST(ImageFile, SpectralRoundTripIsExact) {
+    const test::Folder folder;
+    const SpectralImage image = some_transport();
+    write_spectral_exr(folder / "t.exr", image);
+    const SpectralImage back = read_spectral_exr(folder / "t.exr");
+    EXPECT_EQ(back.width, image.width);
+    EXPECT_EQ(back.height, image.height);
+    EXPECT_EQ(back.basis, image.basis);
+    EXPECT_EQ(back.groups, image.groups);
+    EXPECT_TRUE(same_bits(back.transport, image.transport));
+    EXPECT_EQ(back.aov_names, image.aov_names);
+    ASSERT_EQ(back.aovs.size(), image.aovs.size());
+    for (std::size_t i = 0; i < image.aovs.size(); ++i) {
+        EXPECT_EQ(back.aovs[i].channels, image.aovs[i].channels);
+        EXPECT_TRUE(same_bits(back.aovs[i].data, image.aovs[i].data));
+    }
+    EXPECT_EQ(back.metadata, image.metadata);
+    EXPECT_EQ(folder.size(), 1);
+}
+
+TEST(ImageFile, SpectralRoundTripOfOddBasis) {
+    const test::Folder folder;
+    for (const SpectralBasis basis : {SpectralBasis{32, 400, 700}, SpectralBasis{1, 500, 600},
+                                      SpectralBasis{7, 380.25, 1e3 / 1.3}}) {
+        SpectralImage image = SpectralImage::make(3, 2, basis, {"key"});
+        for (std::size_t i = 0; i < image.transport.size(); ++i)
+            image.transport[i] = static_cast<float>(i);
+        write_spectral_exr(folder / "t.exr", image);
+        const SpectralImage back = read_spectral_exr(folder / "t.exr");
+        EXPECT_EQ(back.basis, basis);
+        EXPECT_EQ(back.transport, image.transport);
+    }
+}
+
+TEST(ImageFile, SpectralHalfIsNear) {
+    const test::Folder folder;
+    const SpectralImage image = some_transport();
+    write_spectral_exr(folder / "h.exr", image, SampleType::half);
+    const SpectralImage back = read_spectral_exr(folder / "h.exr");
+    bool rounded = false;
+    for (std::size_t i = 0; i < image.transport.size(); ++i) {
+        ASSERT_NEAR(back.transport[i], image.transport[i],
+                    std::abs(image.transport[i]) / 2048 + 1e-7f);
+        rounded = rounded || back.transport[i] != image.transport[i];
+    }
+    EXPECT_TRUE(rounded);
+}
+
+TEST(ImageFile, SpectralChannelsHaveLayoutNames) {
+    EXPECT_EQ(spectral_channel_name("key", 400), "key.S0.400,000nm");
+    EXPECT_EQ(spectral_channel_name("key", 409.67741935), "key.S0.409,677nm");
+    const test::Folder folder;
+    write_spectral_exr(folder / "t.exr", some_transport());
+    const std::vector<std::string> names = read_image(folder / "t.exr").channels;
+    for (const char *name : {"key.S0.420,000nm", "a fill.left.S0.700,000nm", "aov.normal.x"})
+        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+}
+
+TEST(ImageFile, RefusesWrongFiles) {
+    const test::Folder folder;
+    const auto absent = folder / "absent.exr";
+    test::expect_problem([&] { read_spectral_exr(absent); }, absent.string(), "no such file");
+    test::expect_problem([&] { read_image(folder / ""); }, (folder / "").string(), "no such file");
+    const auto text = folder.write("text.exr", "silk");
+    test::expect_problem([&] { read_spectral_exr(text); }, text.string(), "cannot read");
+    const auto empty = folder.write("empty.png", "");
+    test::expect_problem([&] { read_image(empty); }, empty.string(), "cannot read");
+    const auto png = folder / "p.png";
+    write_png(png, ramp(8, 8, {"R", "G", "B"}));
+    test::expect_problem([&] { read_spectral_exr(png); }, png.string(), "no spectral picture");
+    const auto plain = folder / "plain.exr";
+    write_exr(plain, ramp(8, 8, {"R", "G", "B"}));
+    test::expect_problem([&] { read_spectral_exr(plain); }, plain.string(), "no spectral picture");
+}
+
+TEST(ImageFile, RefusesDamagedSpectralFiles) {
+    const test::Folder folder;
+    const auto whole = folder / "whole.exr";
+    write_spectral_exr(whole, some_transport());
+    std::ifstream in(whole, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    for (const double part : {0.02, 0.3, 0.6, 0.99}) {
+        const auto cut = folder.write(
+            "cut.exr",
+            bytes.substr(0, static_cast<std::size_t>(part * static_cast<double>(bytes.size()))));
+        test::expect_problem([&] { read_spectral_exr(cut); }, cut.string(), "cannot read");
+    }
+    const auto replaced = [&](const std::string &from, const std::string &to) {
+        std::string changed = bytes;
+        for (std::size_t at = 0; (at = changed.find(from, at)) != std::string::npos;
+             at += to.size())
+            changed.replace(at, from.size(), to);
+        return folder.write("changed.exr", changed);
+    };
+    auto path = replaced("key.S0.420,000nm", "key.S0.421,000nm");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(),
+                         "the channel 'key.S0.420,000nm' is missing");
+    path = replaced("tsuya-spectral-1", "tsuya-spectral-9");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya-spectral-9");
+    path = replaced("hat 16 ", "hat -1 ");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya:basis");
+    path = replaced("tsuya:group.0", "tsuya:grove.0");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya:group.0");
+}
+
+TEST(ImageFile, FailedWriteLeavesNothing) {
+    const test::Folder folder;
+    const auto nowhere = folder / "no/where.exr";
+    test::expect_problem([&] { write_spectral_exr(nowhere, some_transport()); }, nowhere.string(),
+                         "folder");
+    std::filesystem::create_directory(folder / "taken.png");
+    test::expect_problem([&] { write_png(folder / "taken.png", ramp(4, 4, {"Y"})); },
+                         (folder / "taken.png").string(), "name of a folder");
+    test::expect_problem([&] { write_exr("/proc/full.exr", ramp(4, 4, {"Y"})); }, "/proc/full.exr",
+                         "cannot write");
+    const auto bad = folder / "bad.exr";
+    test::expect_problem(
+        [&] {
+            write_exr(bad, ramp(4, 4, {"Y", "Y"}));
+        },
+        bad.string(), "two channels have the name 'Y'");
+    test::expect_problem([&] { write_exr(bad, ramp(4, 4, {""})); }, bad.string(), "no name");
+    test::expect_problem([&] { write_exr(bad, Image{}); }, bad.string(), "0 x 0");
+    test::expect_problem([&] { write_exr(folder / "bad.tif", ramp(4, 4, {"Y"})); },
+                         (folder / "bad.tif").string(), "expected NAME.exr");
+    EXPECT_EQ(folder.size(), 1); // the folder taken.png
+}
+
+TEST(ImageFile, RefusesWrongPictures) {
+    const test::Folder folder;
+    const auto png = folder / "p.png";
+    test::expect_problem(
+        [&] {
+            write_png(png, ramp(4, 4, {"a", "b"}));
+        },
+        png.string(), "2 channels");
+    test::expect_problem([&] { write_png(png, ramp(4, 4, {"Y"}), 10); }, png.string(),
+                         "expected 8 or 16");
+    Image nan = ramp(4, 4, {"R", "G", "B"});
+    nan.pixel(2, 1)[1] = std::numeric_limits<float>::quiet_NaN();
+    test::expect_problem([&] { write_png(png, nan); }, png.string(), "column 2, row 1");
+
+    const auto exr = folder / "t.exr";
+    SpectralImage image = some_transport();
+    image.transport.pop_back();
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "values");
+    image = some_transport();
+    image.aovs[0].width = 36;
+    EXPECT_THROW(write_spectral_exr(exr, image), Error);
+    image = some_transport();
+    image.aov_names.pop_back();
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "names of them");
+    image = some_transport();
+    image.groups[1] = "key";
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "two channels");
+    image.groups[1] = "";
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "no name");
+    EXPECT_EQ(folder.size(), 0);
+}
+
+} // namespace
+} // namespace tsuya
