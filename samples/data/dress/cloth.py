@@ -5,6 +5,9 @@ along each grid line. All constraints of one colour share no vertex, so that a c
 """
 import numpy as np
 
+REACH = 1.6         # of the search for contacts, in thicknesses
+TOP_SPEED = 1.2     # m/s: slower than what crosses the reach between two searches
+
 
 def colour(constraints, vertex_count):
     """Greedy colouring; returns a list of index arrays into `constraints`."""
@@ -31,7 +34,7 @@ class Cloth:
         self.v = np.zeros_like(position)
         self.w = inverse_mass
         self.start = position.copy()
-        self.thickness = 0.62 * spacing
+        self.thickness = 0.80 * spacing  # more than from a cell's middle to its corner: nothing slips through
         self.springs, self.bends = [], []
         self.pairs = np.zeros((0, 2), int)
 
@@ -69,7 +72,7 @@ class Cloth:
 
     def find_pairs(self):
         """Vertices that may touch and are not neighbours in the cloth."""
-        reach = 1.5 * self.thickness.max()
+        reach = REACH * self.thickness.max()
         low = self.p.min(axis=0) - 2 * reach
         cells = np.floor((self.p - low) / reach).astype(np.int64)
         size = cells.max(axis=0) + 3
@@ -91,8 +94,8 @@ class Cloth:
             second.append(order[b])
         i, j = np.concatenate(first), np.concatenate(second)
         t = 0.5 * (self.thickness[i] + self.thickness[j])
-        near = np.linalg.norm(self.p[i] - self.p[j], axis=1) < 1.5 * t
-        apart = np.linalg.norm(self.start[i] - self.start[j], axis=1) > 2.6 * t
+        near = np.linalg.norm(self.p[i] - self.p[j], axis=1) < REACH * t
+        apart = np.linalg.norm(self.start[i] - self.start[j], axis=1) > 2.2 * t
         keep = near & apart
         self.pairs = np.stack([i[keep], j[keep]], axis=1)
 
@@ -119,7 +122,7 @@ class Cloth:
         free = (self.w > 0)[:, None]
         gravity = np.array([0.0, -9.81, 0.0])
         for n in range(int(round(seconds / dt))):
-            if n % 6 == 0:
+            if n % 4 == 0:
                 self.find_pairs()
             acceleration = gravity if wind is None else gravity + wind(n * dt, self.p)
             previous = self.p.copy()
@@ -133,6 +136,6 @@ class Cloth:
             collide(self.p, previous)
             self.v = (self.p - previous) / dt
             speed = np.linalg.norm(self.v, axis=1)
-            self.v *= np.minimum(1, 4.0 / np.maximum(speed, 1e-9))[:, None]
+            self.v *= np.minimum(1, TOP_SPEED / np.maximum(speed, 1e-9))[:, None]
             if report and n % 200 == 0:
                 report(n * dt, self)

@@ -22,16 +22,17 @@ BODICE_ROWS = 15
 WAIST_TOP, WAIST_BOTTOM = 1.083, 1.035
 STRAP_ROWS = 30
 SKIRT_ROWS = 54
-SKIRT_LENGTH = 0.955
+SKIRT_LENGTH = 0.975
 SKIRT_SPREAD = 3.7          # radians of the circle that the six gores make together
+PETTICOAT_HEM = 0.255
 GATHER = 1.16               # skirt top length over waistband length
 CLEARANCE = 0.006           # of the cloth's vertices from the figure
-EASE = 1.012                # bodice pattern over body
+EASE = 1.018                # bodice pattern over body
 
 DENSITY = 0.14              # kg/m2
 THREAD_STIFFNESS = 1200.0   # N/m along warp and weft
 SHEAR_STIFFNESS = 60.0      # N/m at 45 degrees to them
-BENDING = 3.0e-5            # N m
+BENDING = 6.5e-5            # N m
 
 # name, first and last bodice column, grain (degrees that the pattern is turned on the cloth)
 BODICE_PANELS = [
@@ -155,7 +156,7 @@ class Dress:
         middle = y[0] + 0.52 * (y[1] - y[0])
         inner = [[self.add(self.tape.point(middle, (i + f) / COLUMNS)) for f in (0.32, 0.68)] for i in range(COLUMNS)]
         self.hem_of_band = [self.add(self.tape.point(WAIST_BOTTOM, i / (3 * COLUMNS))) for i in range(3 * COLUMNS)]
-        self.pinned = list(coarse[2])
+        self.pinned = coarse[2] + self.hem_of_band  # the band sits tight
         fine, n = self.hem_of_band, 3 * COLUMNS
         for name, first, last, grain in WAISTBAND_PANELS:
             faces = list(grid_faces([[row[k % COLUMNS] for k in range(first, last + 1)] for row in coarse[1:]]))
@@ -336,8 +337,10 @@ def sew(dress):
     return cloth
 
 
-# The skirt stands over a soft petticoat that is not drawn: its radius by height.
-PETTICOAT = np.array([[0.0, 0.365], [0.10, 0.350], [0.35, 0.300], [0.60, 0.245], [0.80, 0.190], [0.92, 0.125], [1.0, 0.05]])
+def petticoat(y):
+    """Half width by height of a stiff underskirt that is not drawn; it ends smoothly under the hips."""
+    t = np.clip((y - 0.72) / 0.30, 0, 1)
+    return (PETTICOAT_HEM - 0.11 * y) * (1 - t * t * (3 - 2 * t))
 
 
 def obstacles(field):
@@ -352,11 +355,10 @@ def obstacles(field):
         length = np.maximum(np.linalg.norm(slide, axis=1), 1e-12)
         p[hit] -= slide * np.minimum(1, 0.7 * push / length)[:, None]
 
-        reach = np.hypot(p[:, 0], p[:, 2])
-        lobe = 1 + 0.05 * np.cos(2 * np.arctan2(p[:, 0], p[:, 2]) + 0.4)
-        want = lobe * np.interp(p[:, 1], PETTICOAT[:, 0], PETTICOAT[:, 1])
-        low = (reach < want) & (p[:, 1] < 0.98)
-        p[low] += (p[low] * [1, 0, 1]) * ((want[low] - reach[low]) / np.maximum(reach[low], 1e-6))[:, None] * [0.9, 0, 0.9]
+        reach = np.hypot(p[:, 0], p[:, 2] / 0.84)
+        out = np.maximum(petticoat(p[:, 1]) / np.maximum(reach, 1e-6), 1)
+        p[:, 0] *= out
+        p[:, 2] *= out
         p[:, 1] = np.maximum(p[:, 1], 0.012)
     return collide
 
@@ -377,7 +379,7 @@ def drape(dress, field):
         a[:, 2] = low * (1.4 * np.sin(6.0 * p[:, 0] - 2.0 * t + 1.0) - 0.8)
         return a * max(0.0, 1 - t / 1.4)
     cloth.run(0.25, 1 / 700, collide, 25.0, None, report)
-    cloth.run(1.6, 1 / 700, collide, 1.5, breeze, report)
+    cloth.run(1.8, 1 / 700, collide, 1.5, breeze, report)
     cloth.run(1.6, 1 / 900, collide, 3.0, None, report)
     cloth.run(0.5, 1 / 1500, collide, 10.0, None, report)
     return cloth.p
