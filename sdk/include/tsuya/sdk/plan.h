@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// What a scene needs, found before it is rendered. Skipping may not change the picture.
+
+#include <string>
+#include <vector>
+
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya {
+
+struct RenderSettings;
+
+/// Something that a render leaves out.
+struct Skip {
+    std::string what;
+    std::string saves;
+};
+
+/// The cheapest exact way through a scene.
+struct Plan {
+    int max_bounces = 0;      ///< 0 where no surface scatters light on
+    bool environment = false; ///< an environment shines
+    bool any_specular = false;
+    bool any_diffuse = false;
+    std::vector<std::size_t> lights{}; ///< rectangles that shine
+    std::vector<Skip> skips{};
+};
+
+Plan plan(const Scene &scene, const RenderSettings &settings);
+
+/// The plan as lines of text.
+std::string explain(const Plan &plan);
+
+} // namespace tsuya

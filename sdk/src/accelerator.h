@@ -1,0 +1,43 @@
+#pragma once
+// The acceleration structure: the one file that knows Embree.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya {
+
+// Where a ray met a surface.
+struct Hit {
+    float distance;
+    glm::vec3 barycentric; // weights of the three vertices
+    glm::vec3 face_normal; // of the triangle's winding, not normalised
+    std::uint32_t object;
+    std::uint32_t triangle;
+};
+
+class Accelerator {
+  public:
+    // \param centre subtracted from every position before it becomes a float
+    Accelerator(const Scene &scene, const glm::dvec3 &centre, int threads);
+    ~Accelerator();
+    Accelerator(const Accelerator &) = delete;
+    Accelerator &operator=(const Accelerator &) = delete;
+
+    // Nearest hit nearer than `farthest`; false where there is none.
+    bool intersect(const glm::vec3 &origin, const glm::vec3 &direction, float farthest,
+                   Hit &hit) const;
+    bool occluded(const glm::vec3 &origin, const glm::vec3 &direction, float farthest) const;
+
+    const std::vector<glm::vec3> &positions(std::uint32_t object) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace tsuya

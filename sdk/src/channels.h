@@ -1,0 +1,46 @@
+#pragma once
+// K spectral channels as a value; plain loops that the compiler vectorises.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace tsuya {
+
+template <int K> struct Channels {
+    std::array<float, K> v{};
+
+    static Channels filled(float value) {
+        Channels c;
+        c.v.fill(value);
+        return c;
+    }
+    // this += a * b * s
+    void add(const Channels &a, const Channels &b, float s) {
+        for (std::size_t k = 0; k < K; ++k)
+            v[k] += a.v[k] * b.v[k] * s;
+    }
+    void add(const Channels &a, float s) {
+        for (std::size_t k = 0; k < K; ++k)
+            v[k] += a.v[k] * s;
+    }
+    void multiply(const Channels &a) {
+        for (std::size_t k = 0; k < K; ++k)
+            v[k] *= a.v[k];
+    }
+    void scale(float s) {
+        for (std::size_t k = 0; k < K; ++k)
+            v[k] *= s;
+    }
+    float largest() const { return *std::max_element(v.begin(), v.end()); }
+    float mean() const {
+        float sum = 0;
+        for (std::size_t k = 0; k < K; ++k)
+            sum += v[k];
+        return sum / K;
+    }
+    bool finite() const { return std::isfinite(mean()); }
+};
+
+} // namespace tsuya

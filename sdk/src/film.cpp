@@ -1,0 +1,196 @@
+#include "film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya {
+namespace {
+
+constexpr int kTileSize = 32;
+constexpr char kMagic[] = "tsuya-checkpoint 1\n";
+
+std::vector<std::string> channels_of(const std::string &aov) {
+    if (aov == "normal" || aov == "warp")
+        return {"X", "Y", "Z"};
+    return {aov == "depth" ? "Z" : "A"};
+}
+
+// FNV-1a over the bytes of values
+struct Hasher {
+    std::uint64_t state = 1469598103934665603ull;
+
+    void bytes(const void *data, std::size_t size) {
+        const auto *byte = static_cast<const unsigned char *>(data);
+        for (std::size_t i = 0; i < size; ++i)
+            state = (state ^ byte[i]) * 1099511628211ull;
+    }
+    template <class T> void value(const T &v) { bytes(&v, sizeof v); }
+    template <class T> void array(const std::vector<T> &v) {
+        value(v.size());
+        bytes(v.data(), v.size() * sizeof(T));
+    }
+    void spectrum(const Spectrum &s) {
+        array(s.wavelength_nm);
+        array(s.value);
+    }
+};
+
+} // namespace
+
+Film::Film(const Scene &scene, const RenderSettings &settings)
+    : width(scene.camera.width), height(scene.camera.height), channels(settings.channels),
+      groups(scene.light_groups.size()) {
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    sum.resize(pixels * groups * static_cast<std::size_t>(channels));
+    sum_of_squares.resize(pixels);
+    for (const std::string &aov : settings.aovs)
+        aov_sums.push_back(Image::make(width, height, channels_of(aov)));
+    const auto [x0, y0, x1, y1] = settings.crop.value_or(std::array<int, 4>{0, 0, width, height});
+    for (int y = y0; y < y1; y += kTileSize)
+        for (int x = x0; x < x1; x += kTileSize)
+            tiles.push_back({x, y, std::min(x + kTileSize, x1), std::min(y + kTileSize, y1)});
+    done.resize(tiles.size());
+}
+
+double Film::relative_error() {
+    double errors = 0, values = 0;
+    const auto values_per_pixel = groups * static_cast<std::size_t>(channels);
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const double n = done[t];
+        for (int y = tiles[t].y0; n > 1 && y < tiles[t].y1; ++y)
+            for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {
+                const float *const p = pixel(x, y);
+                double total = 0;
+                for (std::size_t i = 0; i < values_per_pixel; ++i)
+                    total += p[i] / static_cast<double>(values_per_pixel);
+                const std::size_t at =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(x);
+                const double variance = sum_of_squares[at] / n - total / n * (total / n);
+                errors += std::sqrt(std::max(0.0, variance) / (n - 1));
+                values += total / n;
+            }
+    }
+    return values > 0 ? errors / values : 0;
+}
+
+SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) {
+    SpectralImage image =
+        SpectralImage::make(width, height, {.count = channels}, scene.light_groups);
+    image.aovs = aov_sums;
+    image.aov_names = settings.aovs;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const float scale = done[t] > 0 ? 1.0f / static_cast<float>(done[t]) : 0.0f;
+        for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
+            for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {
+                const float *from = pixel(x, y);
+                for (std::size_t g = 0; g < groups; ++g) {
+                    float *const to = image.pixel(g, x, y);
+                    for (int k = 0; k < channels; ++k)
+                        to[k] = *from++ * scale;
+                }
+                for (Image &aov : image.aovs)
+                    for (std::size_t c = 0; c < aov.channels.size(); ++c)
+                        aov.pixel(x, y)[c] *= scale;
+            }
+    }
+    return image;
+}
+
+std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings) {
+    Hasher h;
+    h.value(settings.channels);
+    h.value(settings.max_bounces);
+    h.value(settings.seed);
+    h.value(settings.skip);
+    h.value(settings.crop.value_or(std::array<int, 4>{}));
+    for (const std::string &aov : settings.aovs)
+        h.bytes(aov.data(), aov.size());
+    for (const Surface &s : scene.surfaces) {
+        h.array(s.position);
+        h.array(s.normal);
+        h.array(s.warp);
+        h.array(s.triangle);
+    }
+    for (const Fabric &f : scene.fabrics) {
+        h.spectrum(f.dye);
+        h.spectrum(f.specular_tint);
+        h.value(f.f0.value_or(0));
+        if (f.bard)
+            for (const BardView &v : f.bard->views())
+                h.value(v);
+    }
+    for (const Object &o : scene.objects) {
+        h.value(o.surface);
+        h.value(o.fabric);
+    }
+    h.value(scene.light_groups.size());
+    for (const RectangleLight &l : scene.rectangles) {
+        for (const glm::dvec3 &v : {l.corner, l.edge_u, l.edge_v})
+            h.value(v);
+        h.value(l.radiance);
+        h.value(l.group);
+    }
+    if (scene.environment) {
+        h.value(scene.environment->radiance);
+        h.value(scene.environment->group);
+        h.value(scene.environment->visible);
+        if (scene.environment->picture)
+            h.array(scene.environment->picture->data);
+    }
+    for (const glm::dvec3 &v : {scene.camera.eye, scene.camera.target, scene.camera.up})
+        h.value(v);
+    h.value(scene.camera.vertical_angle);
+    h.value(scene.camera.width);
+    h.value(scene.camera.height);
+    return h.state;
+}
+
+void save_checkpoint(const Film &film, std::uint64_t print, const std::filesystem::path &file) {
+    std::string bytes = kMagic;
+    const auto append = [&](const void *data, std::size_t size) {
+        bytes.append(static_cast<const char *>(data), size);
+    };
+    append(&print, sizeof print);
+    append(&film.not_finite, sizeof film.not_finite);
+    append(&film.rays, sizeof film.rays);
+    append(film.done.data(), film.done.size() * sizeof film.done[0]);
+    append(film.sum.data(), film.sum.size() * sizeof film.sum[0]);
+    append(film.sum_of_squares.data(), film.sum_of_squares.size() * sizeof(float));
+    for (const Image &aov : film.aov_sums)
+        append(aov.data.data(), aov.data.size() * sizeof(float));
+    write_file(file, bytes);
+}
+
+void load_checkpoint(Film &film, std::uint64_t print, const std::filesystem::path &file) {
+    const std::string bytes = read_file(file);
+    std::size_t at = sizeof kMagic - 1;
+    if (bytes.compare(0, at, kMagic) != 0)
+        throw Error({"the file is not a checkpoint of a render", file.string(),
+                     "expected the file that an interrupted render left; remove it to start anew"});
+    const auto take = [&](void *data, std::size_t size) {
+        if (bytes.size() - at < size)
+            throw Error({"the checkpoint is cut off", file.string(), "remove it to start anew"});
+        std::memcpy(data, bytes.data() + at, size);
+        at += size;
+    };
+    std::uint64_t found = 0;
+    take(&found, sizeof found);
+    if (found != print)
+        throw Error({"the checkpoint is of another scene or other settings", file.string(),
+                     "expected the same scene and settings; remove it to start anew"});
+    take(&film.not_finite, sizeof film.not_finite);
+    take(&film.rays, sizeof film.rays);
+    take(film.done.data(), film.done.size() * sizeof film.done[0]);
+    take(film.sum.data(), film.sum.size() * sizeof film.sum[0]);
+    take(film.sum_of_squares.data(), film.sum_of_squares.size() * sizeof(float));
+    for (Image &aov : film.aov_sums)
+        take(aov.data.data(), aov.data.size() * sizeof(float));
+}
+
+} // namespace tsuya

@@ -1,0 +1,48 @@
+#pragma once
+// The sums of a render in the making, tile by tile, and the file that keeps them.
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "tsuya/sdk/render.h"
+
+namespace tsuya {
+
+struct Tile {
+    int x0, y0, x1, y1;
+};
+
+// Sums over samples. Each tile knows how many samples its pixels have.
+struct Film {
+    Film(const Scene &scene, const RenderSettings &settings);
+
+    int width, height, channels;
+    std::size_t groups;
+    std::vector<Tile> tiles{};
+    std::vector<std::int32_t> done{};    // samples per pixel, per tile
+    std::vector<float> sum{};            // [y][x][group][k]
+    std::vector<float> sum_of_squares{}; // [y][x], of the mean over groups and channels
+    std::vector<Image> aov_sums{};
+    std::uint64_t not_finite = 0, rays = 0;
+
+    float *pixel(int x, int y) {
+        return sum.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                             static_cast<std::size_t>(x)) *
+                                groups * static_cast<std::size_t>(channels);
+    }
+    // Mean standard error of lit pixels over their mean value.
+    double relative_error();
+    // Means of the sums.
+    SpectralImage develop(const Scene &scene, const RenderSettings &settings);
+};
+
+// What must be the same for a render to go on: a hash of scene and settings.
+std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings);
+
+void save_checkpoint(const Film &film, std::uint64_t fingerprint,
+                     const std::filesystem::path &file);
+// Throws Error naming the file: not a checkpoint, cut off, or of another scene.
+void load_checkpoint(Film &film, std::uint64_t fingerprint, const std::filesystem::path &file);
+
+} // namespace tsuya

@@ -1,0 +1,196 @@
+#include "path_tracer.h"
+
+#include <cmath>
+#include <limits>
+
+#include "ray_offset.h"
+
+namespace tsuya {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// A shadow ray ends this share short of the light.
+constexpr float kShadowReach = 1.0f - 1e-4f;
+// Paths may end by chance from this vertex on.
+constexpr std::uint32_t kSurvivalFrom = 3;
+
+// A tent of two pixels width.
+float tent(float u) { return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
+
+// The light seen in the mirror of the surface's geometric plane.
+glm::vec3 mirrored(const glm::vec3 &d, const glm::vec3 &geometric_normal) {
+    return d - 2 * glm::dot(d, geometric_normal) * geometric_normal;
+}
+
+} // namespace
+
+template <int K> struct PathTracer<K>::Vertex {
+    const SurfacePoint &point;
+    const Shading &shading;
+    const Channels<K> &dye, &tint;
+    glm::vec3 to_viewer; // local
+    ViewTerms view;
+    std::uint32_t depth;
+
+    // f cos and pdf of a light above the geometric surface. Directions that the shading normal's
+    // hemisphere has below that surface are folded back above it, so that no energy is lost and
+    // none leaks through.
+    Response evaluate(const glm::vec3 &to_light, float &pdf) const {
+        const glm::vec3 direct = point.frame.to_local(to_light);
+        Response r = shading.evaluate_cos(direct, to_viewer, view);
+        pdf = shading.pdf(direct, to_viewer, view);
+        const glm::vec3 folded = point.frame.to_local(mirrored(to_light, point.geometric_normal));
+        if (folded.z > 0) {
+            const Response more = shading.evaluate_cos(folded, to_viewer, view);
+            r.diffuse += more.diffuse;
+            r.specular += more.specular;
+            pdf += shading.pdf(folded, to_viewer, view);
+        }
+        return r;
+    }
+
+    void colour(const Response &r, float scale, Channels<K> &result) const {
+        for (std::size_t k = 0; k < K; ++k)
+            result.v[k] = (dye.v[k] * r.diffuse + tint.v[k] * r.specular) * scale;
+    }
+};
+
+template <int K> PathTracer<K>::PathTracer(const PreparedScene &prepared) : p_(prepared) {
+    for (std::size_t i = 0; i < prepared.dye.size(); ++i) {
+        std::copy_n(prepared.dye[i].begin(), K, dye_.emplace_back().v.begin());
+        std::copy_n(prepared.tint[i].begin(), K, tint_.emplace_back().v.begin());
+    }
+}
+
+template <int K>
+void PathTracer<K>::light_directly(const Vertex &vertex, std::size_t light, float probability,
+                                   const Sampler &sampler, const Channels<K> &throughput,
+                                   Channels<K> *radiance) {
+    const glm::vec3 origin = offset_ray(vertex.point.position, vertex.point.geometric_normal);
+    const auto ray = p_.lights.sample(
+        light, origin,
+        sampler.pair(vertex.depth, Purpose::light_point, static_cast<std::uint32_t>(light)));
+    if (!ray || !(ray->radiance > 0) ||
+        !(glm::dot(ray->to_light, vertex.point.geometric_normal) > 0))
+        return;
+    float pdf = 0;
+    const Response response = vertex.evaluate(ray->to_light, pdf);
+    if (!(response.diffuse + response.specular > 0))
+        return;
+    ++rays_;
+    if (p_.accelerator.occluded(origin, ray->to_light, ray->distance * kShadowReach))
+        return;
+    // [Veach] balance heuristic
+    const float light_pdf = ray->pdf * probability;
+    Channels<K> f;
+    vertex.colour(response, ray->radiance / (light_pdf + pdf), f);
+    radiance[ray->group].add(f, throughput, 1.0f);
+}
+
+template <int K>
+void PathTracer<K>::meet_lights(const glm::vec3 &from, const glm::vec3 &direction, float distance,
+                                bool missed, float pdf, std::uint32_t depth,
+                                const Channels<K> &throughput, Channels<K> *radiance) const {
+    // At the first vertex every light is sampled, later one
+    const auto share = [&](std::size_t light) {
+        return depth == 0 ? 1.0f : p_.lights.choice_probability(light);
+    };
+    p_.lights.meet_rectangles(
+        from, direction, distance,
+        [&](float emitted, std::uint32_t group, float light_pdf, std::size_t light) {
+            radiance[group].add(throughput, emitted * pdf / (pdf + light_pdf * share(light)));
+        });
+    if (missed && p_.lights.has_environment()) {
+        const float emitted = p_.lights.environment_radiance(direction);
+        const float light_pdf = p_.lights.environment_pdf(direction);
+        const float weight =
+            light_pdf > 0 ? pdf / (pdf + light_pdf * share(p_.lights.environment_light())) : 1.0f;
+        radiance[p_.lights.environment_group()].add(throughput, emitted * weight);
+    }
+}
+
+template <int K>
+void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *radiance,
+                          std::size_t groups, FirstHit *first) {
+    std::fill_n(radiance, groups, Channels<K>{});
+    const glm::vec2 filter = sampler.pair(0, Purpose::pixel);
+    glm::vec3 origin = p_.eye;
+    glm::vec3 direction = p_.camera_direction(static_cast<float>(x) + 0.5f + tent(filter.x),
+                                              static_cast<float>(y) + 0.5f + tent(filter.y));
+    Hit hit;
+    ++rays_;
+    if (!p_.accelerator.intersect(origin, direction, kInfinity, hit)) {
+        if (p_.lights.has_environment() && p_.lights.environment_visible())
+            radiance[p_.lights.environment_group()] =
+                Channels<K>::filled(p_.lights.environment_radiance(direction));
+        return;
+    }
+
+    Channels<K> throughput = Channels<K>::filled(1.0f);
+    for (std::uint32_t depth = 0;; ++depth) {
+        const SurfacePoint point = p_.point(direction, hit);
+        if (depth == 0 && first)
+            *first = {true, hit.distance, point.frame.normal, point.frame.warp, hit.object};
+        Vertex vertex{point,
+                      p_.shading[point.fabric],
+                      dye_[point.fabric],
+                      tint_[point.fabric],
+                      point.frame.to_local(-direction),
+                      {},
+                      depth};
+        vertex.view = vertex.shading.view_terms(vertex.to_viewer);
+
+        // Light that arrives straight from a light
+        if (depth == 0)
+            for (std::size_t i = 0; i < p_.lights.count(); ++i)
+                light_directly(vertex, i, 1.0f, sampler, throughput, radiance);
+        else if (p_.lights.count() > 0) {
+            const std::size_t i = p_.lights.choose(sampler.pair(depth, Purpose::light_choice).x);
+            light_directly(vertex, i, p_.lights.choice_probability(i), sampler, throughput,
+                           radiance);
+        }
+
+        // Go on in a direction that the fabric draws
+        const auto drawn = vertex.shading.sample(vertex.to_viewer, vertex.view,
+                                                 sampler.pair(depth, Purpose::lobe_and_strategy),
+                                                 sampler.pair(depth, Purpose::direction));
+        if (!drawn)
+            return;
+        glm::vec3 next = point.frame.to_world(drawn->to_light);
+        if (const float above = glm::dot(next, point.geometric_normal); !(above > 0))
+            next = mirrored(next, point.geometric_normal);
+        Response response = drawn->response;
+        float pdf = drawn->pdf;
+        const glm::vec3 folded = point.frame.to_local(mirrored(next, point.geometric_normal));
+        if (folded.z > 0)
+            response = vertex.evaluate(next, pdf);
+        if (!(pdf > 0))
+            return;
+        Channels<K> f;
+        vertex.colour(response, 1 / pdf, f);
+        throughput.multiply(f);
+        if (!(throughput.largest() > 0))
+            return;
+
+        origin = offset_ray(point.position, point.geometric_normal);
+        direction = next;
+        ++rays_;
+        const bool found = p_.accelerator.intersect(origin, direction, kInfinity, hit);
+        meet_lights(origin, direction, found ? hit.distance : kInfinity, !found, pdf, depth,
+                    throughput, radiance);
+        if (!found || depth >= static_cast<std::uint32_t>(p_.plan.max_bounces))
+            return;
+        if (depth + 1 >= kSurvivalFrom) {
+            const float survives = std::fmin(1.0f, throughput.largest());
+            if (sampler.pair(depth, Purpose::survival).x >= survives)
+                return;
+            throughput.scale(1 / survives);
+        }
+    }
+}
+
+template class PathTracer<8>;
+template class PathTracer<16>;
+template class PathTracer<32>;
+
+} // namespace tsuya

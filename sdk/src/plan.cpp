@@ -1,0 +1,69 @@
+#include "tsuya/sdk/plan.h"
+
+#include <algorithm>
+
+#include "tsuya/sdk/render.h"
+
+namespace tsuya {
+namespace {
+
+bool any_above_zero(const Spectrum &s) {
+    return std::any_of(s.value.begin(), s.value.end(), [](double v) { return v > 0; });
+}
+
+} // namespace
+
+Plan plan(const Scene &scene, const RenderSettings &settings) {
+    Plan p;
+    const auto skip = [&](bool idle, std::string what, std::string saves) {
+        if (idle && settings.skip)
+            p.skips.push_back({std::move(what), std::move(saves)});
+        return idle && settings.skip;
+    };
+    std::vector<bool> used(scene.fabrics.size(), false);
+    for (const Object &object : scene.objects)
+        used[object.fabric.value] = true;
+    for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
+        const Fabric &fabric = scene.fabrics[i];
+        if (skip(!used[i], "fabric '" + fabric.name + "' dresses nothing", "its tables"))
+            continue;
+        const bool specular =
+            fabric.bard && fabric.bard->peak() > 0 && any_above_zero(fabric.specular_tint);
+        const bool diffuse = any_above_zero(fabric.dye);
+        skip(!specular, "no specular part in fabric '" + fabric.name + "'",
+             "its evaluation at every point");
+        skip(!diffuse, "no dye in fabric '" + fabric.name + "'", "the diffuse part at every point");
+        p.any_specular |= specular;
+        p.any_diffuse |= diffuse;
+    }
+
+    const bool scatters = p.any_specular || p.any_diffuse;
+    p.max_bounces = settings.max_bounces;
+    if (settings.max_bounces > 0 &&
+        skip(!scatters, "nothing scatters light", "all bounces and shadow rays"))
+        p.max_bounces = 0;
+    for (std::size_t i = 0; i < scene.rectangles.size(); ++i)
+        if (!skip(scene.rectangles[i].radiance == 0,
+                  "light rectangles[" + std::to_string(i) + "] is dark", "its shadow rays"))
+            p.lights.push_back(i);
+    p.environment = scene.environment && !skip(scene.environment->radiance == 0,
+                                               "the environment is dark", "its sampling");
+    skip(!scene.environment, "there is no environment", "its sampling");
+    skip(scene.environment && scene.environment->radiance > 0 && !scene.environment->picture,
+         "the environment is even", "its shadow rays: the surface's own sampling meets it");
+    skip(settings.aovs.empty(), "no further pictures were asked for", "their memory and writing");
+    return p;
+}
+
+std::string explain(const Plan &p) {
+    std::string text = "bounces: up to " + std::to_string(p.max_bounces) + "\n";
+    text += "lights sampled: " + std::to_string(p.lights.size()) + " rectangles" +
+            (p.environment ? ", environment" : "") + "\n";
+    text += std::string("parts: ") + (p.any_diffuse ? "diffuse " : "") +
+            (p.any_specular ? "specular" : "") + "\n";
+    for (const Skip &s : p.skips)
+        text += "skipped: " + s.what + "; saves " + s.saves + "\n";
+    return text;
+}
+
+} // namespace tsuya

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "path_tracer.h"
+
+namespace tsuya {
+namespace {
+
+// The shading normal is bent until the viewer is this much above its horizon.
+constexpr float kLeastCosine = 1e-3f;
+
+glm::dvec3 middle_of(const Scene &scene) {
+    glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
+    for (const Object &object : scene.objects)
+        for (const glm::dvec3 &p : scene.surfaces[object.surface.value].position) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    return 0.5 * (low + high);
+}
+
+double radius_of(const Scene &scene, const glm::dvec3 &centre) {
+    double radius2 = 0;
+    for (const Object &object : scene.objects)
+        for (const glm::dvec3 &p : scene.surfaces[object.surface.value].position)
+            radius2 = std::max(radius2, glm::dot(p - centre, p - centre));
+    return std::sqrt(radius2);
+}
+
+float mean(const std::vector<float> &v) {
+    return std::accumulate(v.begin(), v.end(), 0.0f) / static_cast<float>(v.size());
+}
+
+} // namespace
+
+PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool keep_idle_parts,
+                             int threads, const SpectralBasis &basis)
+    : scene(the_scene), plan(the_plan), centre(middle_of(the_scene)),
+      accelerator(the_scene, centre, threads),
+      lights(the_scene, the_plan, centre, radius_of(the_scene, centre)) {
+    std::vector<bool> used(scene.fabrics.size(), keep_idle_parts);
+    for (const Object &object : scene.objects)
+        used[object.fabric.value] = true;
+    for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
+        const Material material =
+            used[i] ? resolve(scene.fabrics[i], "fabrics." + scene.fabrics[i].name) : Material{};
+        dye.push_back(project(material.dye, basis));
+        tint.push_back(project(material.specular_tint, basis));
+        // Least squares may leave the range where a spectrum has a steep edge
+        for (std::vector<float> *const colour : {&dye.back(), &tint.back()})
+            for (float &c : *colour)
+                c = std::min(c, 1.0f);
+        shading.emplace_back(material, mean(dye.back()), mean(tint.back()), keep_idle_parts);
+    }
+    const Camera &camera = scene.camera;
+    const double half_height = std::tan(0.5 * camera.vertical_angle);
+    const glm::dvec3 ahead = glm::normalize(camera.target - camera.eye);
+    const glm::dvec3 aside = glm::normalize(glm::cross(ahead, camera.up));
+    eye = camera.eye - centre;
+    forward = ahead;
+    right = aside * (half_height * camera.width / camera.height);
+    up = glm::cross(aside, ahead) * half_height;
+}
+
+glm::vec3 PreparedScene::camera_direction(float x, float y) const {
+    const float a = 2 * x / static_cast<float>(scene.camera.width) - 1;
+    const float b = 1 - 2 * y / static_cast<float>(scene.camera.height);
+    return glm::normalize(forward + a * right + b * up);
+}
+
+SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) const {
+    const Object &object = scene.objects[hit.object];
+    const Surface &surface = scene.surfaces[object.surface.value];
+    const glm::uvec3 t = surface.triangle[hit.triangle];
+    const auto interpolate = [&](const std::vector<glm::vec3> &values) {
+        return hit.barycentric.x * values[t.x] + hit.barycentric.y * values[t.y] +
+               hit.barycentric.z * values[t.z];
+    };
+    SurfacePoint point;
+    // From the corners: more exact than along the ray
+    point.position = interpolate(accelerator.positions(hit.object));
+    point.fabric = object.fabric.value;
+    glm::vec3 geometric = hit.face_normal / glm::length(hit.face_normal);
+    if (glm::dot(geometric, direction) > 0)
+        geometric = -geometric;
+    glm::vec3 normal = interpolate(surface.normal);
+    const float length = glm::length(normal);
+    normal = length > 0 ? normal / length : geometric;
+    if (glm::dot(normal, geometric) < 0)
+        normal = -normal;
+    // A viewer below the shading normal's horizon: bend the normal up to the viewer
+    if (const float cosine = -glm::dot(normal, direction); cosine < kLeastCosine)
+        normal = glm::normalize(normal - (kLeastCosine - cosine) * direction);
+    point.geometric_normal = geometric;
+    point.frame =
+        surface.warp.empty() ? make_frame(normal) : make_frame(normal, interpolate(surface.warp));
+    return point;
+}
+
+} // namespace tsuya

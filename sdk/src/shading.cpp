@@ -1,0 +1,111 @@
+#include "shading.h"
+
+#include <cmath>
+
+namespace tsuya {
+namespace {
+
+constexpr LambertBrdf kLambert{};
+// Share of the draws that neither part falls below where both reflect.
+constexpr float kLeastShare = 0.1f;
+constexpr float kLeastTransmission = 1e-3f;
+
+} // namespace
+
+Shading::Shading(const Material &material, float dye_mean, float tint_mean, bool keep_idle_parts)
+    : diffuse_(material.has_diffuse() || keep_idle_parts), couples_(material.has_specular()),
+      dye_mean_(dye_mean), tint_mean_(tint_mean) {
+    if (!material.specular || !(material.has_specular() || keep_idle_parts))
+        return;
+    specular_ = material.specular;
+    // Mean over the cosine-weighted hemisphere, midpoint rule
+    constexpr int kSteps = 32;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const float sine2 = (static_cast<float>(i) + 0.5f) / kSteps;
+            const float phi = 6.28318531f * (static_cast<float>(j) + 0.5f) / kSteps;
+            const float s = std::sqrt(sine2);
+            sum += albedo({s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - sine2)});
+        }
+    mean_albedo_ = static_cast<float>(sum / (kSteps * kSteps));
+}
+
+float Shading::albedo(const glm::vec3 &direction) const {
+    return std::visit([&](const auto &m) { return m.albedo_of_light(direction); }, *specular_);
+}
+
+ViewTerms Shading::view_terms(const glm::vec3 &to_viewer) const {
+    if (!specular_)
+        return {};
+    ViewTerms view;
+    if (couples_)
+        view.diffuse_scale =
+            (1 - albedo(to_viewer)) / std::max(1 - mean_albedo_, kLeastTransmission);
+    if (!diffuse_)
+        return {view.diffuse_scale, 1.0f};
+    const float bright =
+        tint_mean_ *
+        std::visit([&](const auto &m) { return m.albedo_of_view(to_viewer); }, *specular_);
+    const float dyed = dye_mean_ * view.diffuse_scale;
+    view.specular_share = dyed > 0 && bright > 0
+                              ? std::clamp(bright / (bright + dyed), kLeastShare, 1 - kLeastShare)
+                              : (bright > 0 ? 1.0f : 0.0f);
+    return view;
+}
+
+float Shading::diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) const {
+    const float f = kLambert.evaluate_cos(to_light, {0, 0, 1});
+    return couples_ ? f * view.diffuse_scale * (1 - albedo(to_light)) : f;
+}
+
+Response Shading::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                               const ViewTerms &view) const {
+    if (!(to_light.z > 0 && to_viewer.z > 0))
+        return {};
+    Response r;
+    if (diffuse_)
+        r.diffuse = diffuse_cos(to_light, view);
+    if (specular_)
+        r.specular = std::visit([&](const auto &m) { return m.evaluate_cos(to_light, to_viewer); },
+                                *specular_);
+    return r;
+}
+
+float Shading::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                   const ViewTerms &view) const {
+    if (!(to_light.z > 0 && to_viewer.z > 0))
+        return 0;
+    float pdf = 0;
+    if (diffuse_)
+        pdf += (1 - view.specular_share) * kLambert.pdf(to_light, to_viewer);
+    if (specular_ && view.specular_share > 0)
+        pdf += view.specular_share *
+               std::visit([&](const auto &m) { return m.pdf(to_light, to_viewer); }, *specular_);
+    return pdf;
+}
+
+std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const ViewTerms &view,
+                                          glm::vec2 choice, glm::vec2 direction) const {
+    const glm::vec3 u(direction, choice.y);
+    if (specular_ && choice.x < view.specular_share) {
+        const auto drawn =
+            std::visit([&](const auto &m) { return m.sample(to_viewer, u); }, *specular_);
+        if (!drawn)
+            return std::nullopt;
+        DrawnLight light{drawn->direction, {}, view.specular_share * drawn->pdf_per_sr};
+        light.response.specular = drawn->weight * drawn->pdf_per_sr;
+        if (diffuse_) {
+            light.response.diffuse = diffuse_cos(light.to_light, view);
+            light.pdf += (1 - view.specular_share) * kLambert.pdf(light.to_light, to_viewer);
+        }
+        return light;
+    }
+    const auto drawn = kLambert.sample(to_viewer, u);
+    if (!drawn || !diffuse_)
+        return std::nullopt;
+    return DrawnLight{drawn->direction, evaluate_cos(drawn->direction, to_viewer, view),
+                      pdf(drawn->direction, to_viewer, view)};
+}
+
+} // namespace tsuya
