@@ -118,6 +118,40 @@ std::vector<std::uint32_t> uv_islands(const PolygonMesh &mesh, std::uint32_t &co
     return number_sets(parent, count);
 }
 
+void share_equal_uvs(PolygonMesh &mesh) {
+    if (mesh.uv.empty())
+        return;
+    // Corners by vertex, then each corner takes the first index of its vertex with the same value.
+    std::vector<std::uint32_t> start(mesh.position.size() + 1, 0);
+    for (const std::uint32_t v : mesh.corner_position)
+        ++start[v + 1];
+    for (std::size_t v = 1; v < start.size(); ++v)
+        start[v] += start[v - 1];
+    struct Seen {
+        std::int32_t uv;
+        std::uint16_t panel;
+    };
+    std::vector<Seen> seen(mesh.corner_position.size());
+    std::vector<std::uint32_t> seen_end(start.begin(), start.end() - 1);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
+            const std::int32_t uv = mesh.corner_uv[c];
+            if (uv < 0)
+                continue;
+            const std::uint32_t v = mesh.corner_position[c];
+            bool found = false;
+            for (std::uint32_t i = start[v]; i < seen_end[v] && !found; ++i) {
+                found = seen[i].panel == mesh.face_panel[f] &&
+                        mesh.uv[static_cast<std::size_t>(seen[i].uv)] ==
+                            mesh.uv[static_cast<std::size_t>(uv)];
+                if (found)
+                    mesh.corner_uv[c] = seen[i].uv;
+            }
+            if (!found)
+                seen[seen_end[v]++] = {uv, mesh.face_panel[f]};
+        }
+}
+
 void panels_from_uv_islands(PolygonMesh &mesh) {
     std::uint32_t count = 0;
     const std::vector<std::uint32_t> island = uv_islands(mesh, count);

@@ -48,6 +48,10 @@ bool has_uv(const PolygonMesh &mesh, std::size_t f);
 /// \param count number of islands
 std::vector<std::uint32_t> uv_islands(const PolygonMesh &mesh, std::uint32_t &count);
 
+/// Gives corners of one vertex and panel whose UVs have exactly equal values the same UV index, so
+/// that files with one UV a corner are continuous.
+void share_equal_uvs(PolygonMesh &mesh);
+
 /// Names one panel for each UV island, `island0`, `island1`, ... in the order of their first faces;
 /// for files without groups. Throws Error where there are more than 65535 islands.
 void panels_from_uv_islands(PolygonMesh &mesh);

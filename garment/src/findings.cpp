@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "measure.h"
+
+namespace tsuya::garment {
+namespace {
+
+/// Heights of a garment in metres that need no remark.
+constexpr double kLowest = 0.15, kHighest = 2.5;
+
+std::string number(double value) {
+    std::ostringstream text;
+    text.precision(4);
+    text << value;
+    return text.str();
+}
+
+class Findings {
+  public:
+    explicit Findings(Report &report) : report_(report) {}
+
+    void add(Severity severity, std::string key, std::string what, std::string action,
+             std::string where = "") {
+        report_.findings.push_back(
+            {severity, std::move(key), std::move(what), std::move(where), std::move(action)});
+    }
+    /// Only where something was counted.
+    void count(std::size_t n, Severity severity, std::string key, const std::string &what,
+               std::string action, std::string where = "") {
+        if (n > 0)
+            add(severity, std::move(key), std::to_string(n) + " " + what, std::move(action),
+                std::move(where));
+    }
+
+  private:
+    Report &report_;
+};
+
+/// The unit that would make a garment of this height, or an empty string.
+std::string likely_unit(double height) {
+    const std::pair<const char *, double> units[] = {
+        {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+    for (const auto &[name, metres] : units)
+        if (height * metres >= 0.3 && height * metres <= 2.0)
+            return name;
+    return "";
+}
+
+void find_units(const Report &report, Findings &findings) {
+    const glm::dvec3 size = report.upper - report.lower;
+    const double height = std::max({size.x, size.y, size.z});
+    if (height >= kLowest && height <= kHighest)
+        return;
+    const std::string unit = likely_unit(height);
+    findings.add(Severity::warning, "unusual_size",
+                 "the mesh measures " + number(height) + " m at most",
+                 unit.empty() ? "state the unit of the file"
+                              : "if the file is in " + unit + ", state that unit");
+}
+
+void find_topology(const Report &r, Findings &f) {
+    const auto note = Severity::note, warning = Severity::warning;
+    f.count(r.file.degenerate_faces, note, "degenerate_faces",
+            "faces have fewer than 3 different vertices or name one twice", "dropped");
+    f.count(r.file.duplicate_faces, warning, "duplicate_faces",
+            "faces have the same vertices as another", "dropped");
+    f.count(r.file.isolated_vertices, note, "isolated_vertices", "vertices belong to no face",
+            "dropped");
+    f.count(r.file.non_manifold_edges, warning, "non_manifold_edges",
+            "edges border more than two faces", "cut open");
+    f.count(r.file.non_manifold_vertices, note, "non_manifold_vertices",
+            "fans of faces meet others in a vertex alone", "given a vertex of their own");
+    f.count(r.file.flipped_faces + r.joined.flipped_faces, warning, "flipped_faces",
+            "faces are turned against their neighbours", "turned over");
+    f.count(r.file.unorientable_edges + r.joined.unorientable_edges, warning, "unorientable_edges",
+            "edges lie on a surface that has one side only", "cut open");
+    f.count(r.joined.non_manifold_edges, warning, "crowded_seams",
+            "edges would border more than two faces after joining", "left open");
+    f.count(r.joined.duplicate_faces + r.joined.degenerate_faces, warning, "collapsed_faces",
+            "faces collapsed when seams were joined", "dropped");
+}
+
+void find_seams(const Report &r, Findings &f) {
+    f.count(r.seams.joined, Severity::note, "joined_vertices",
+            "boundary vertices lie at another panel's (largest gap " +
+                number(1e3 * r.seams.largest_gap) + " mm)",
+            "joined");
+    f.count(r.seams.splits, Severity::note, "t_junctions",
+            "boundary vertices lie on another panel's edge", "put into that edge");
+    f.count(r.seams.unresolved, Severity::warning, "unresolved_seams",
+            "boundary vertices lie near another boundary and could not be joined",
+            "look at the seam, or state another tolerance");
+    double length = 0.0;
+    for (const BoundaryLoop &loop : r.openings)
+        length += loop.length;
+    f.count(r.openings.size(), Severity::note, "openings",
+            "openings with " + number(length) + " m of edge", "");
+}
+
+void find_uv(const Report &r, Findings &f) {
+    if (r.faces_without_uv == r.faces || r.uvs == 0) {
+        f.add(Severity::note, "no_uv", "no face has UVs",
+              "no yarn directions unless a grain is stated");
+        return;
+    }
+    f.count(r.faces_without_uv, Severity::warning, "faces_without_uv", "faces have no UV",
+            "directions spread from their neighbours");
+    f.count(r.faces_without_uv_area, Severity::warning, "faces_without_uv_area",
+            "faces have UVs without area", "directions spread from their neighbours");
+    f.count(r.mirrored_islands, Severity::note, "mirrored_islands", "UV islands are mirrored",
+            "warp kept, weft turned round");
+    if (r.mirrored_islands == 0)
+        f.count(r.mirrored_faces, Severity::warning, "mirrored_faces",
+                "faces are mirrored inside their UV island", "warp kept, weft turned round");
+    const double shear = r.metres_per_uv_weft.p50 / r.metres_per_uv_warp.p50;
+    if (std::isfinite(shear) && (shear > 1.25 || shear < 0.8))
+        f.add(Severity::warning, "uneven_uv_scale",
+              "u measures " + number(r.metres_per_uv_weft.p50) + " m and v " +
+                  number(r.metres_per_uv_warp.p50) + " m a unit",
+              "the pattern will look stretched");
+}
+
+} // namespace
+
+void find_all(const PolygonMesh &mesh, Report &report) {
+    Findings findings(report);
+    find_units(report, findings);
+    find_topology(report, findings);
+    find_seams(report, findings);
+    find_uv(report, findings);
+    if (mesh.panel_name.empty())
+        findings.add(Severity::note, "no_panels", "the file names no group, object or material",
+                     "UV islands stand for panels");
+}
+
+} // namespace tsuya::garment

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <set>
+
+#include "edges.h"
+#include "tsuya/garment/seams.h"
+
+namespace tsuya::garment {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// Drops repeated corners that follow each other, faces that keep fewer than 3 different vertices
+/// or name a vertex twice, and faces with the vertices of an earlier one.
+PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
+    PolygonMesh out;
+    out.position = mesh.position;
+    out.uv = mesh.uv;
+    out.panel_name = mesh.panel_name;
+    out.corner_position.reserve(mesh.corner_position.size());
+    out.corner_uv.reserve(mesh.corner_uv.size());
+    out.face_offset.reserve(mesh.face_offset.size());
+    out.face_panel.reserve(mesh.face_panel.size());
+    std::vector<std::uint32_t> vertices, sorted;
+    std::vector<std::int32_t> uvs;
+    // Faces by their lowest vertex, as a list, to find duplicates.
+    std::vector<std::uint32_t> head(mesh.position.size(), kNone), next;
+    const auto same_vertices = [&](std::uint32_t f) {
+        if (out.face_size(f) != sorted.size())
+            return false;
+        return std::all_of(
+            out.corner_position.begin() + out.face_offset[f],
+            out.corner_position.begin() + out.face_offset[f + 1],
+            [&](std::uint32_t v) { return std::binary_search(sorted.begin(), sorted.end(), v); });
+    };
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        vertices.clear();
+        uvs.clear();
+        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
+            if (mesh.corner_position[c] != mesh.corner_position[mesh.next(f, c)]) {
+                vertices.push_back(mesh.corner_position[c]);
+                uvs.push_back(mesh.corner_uv[c]);
+            }
+        sorted = vertices;
+        std::sort(sorted.begin(), sorted.end());
+        const bool repeats = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+        if (vertices.size() < 3 || repeats) {
+            ++report.degenerate_faces;
+            continue;
+        }
+        std::uint32_t duplicate = head[sorted.front()];
+        while (duplicate != kNone && !same_vertices(duplicate))
+            duplicate = next[duplicate];
+        if (duplicate != kNone) {
+            ++report.duplicate_faces;
+            continue;
+        }
+        next.push_back(head[sorted.front()]);
+        head[sorted.front()] = static_cast<std::uint32_t>(out.face_count());
+        out.add_face(vertices, uvs, mesh.face_panel[f]);
+    }
+    return out;
+}
+
+void flip_face(PolygonMesh &mesh, std::size_t f) {
+    const auto first = static_cast<std::ptrdiff_t>(mesh.face_offset[f]);
+    const auto last = static_cast<std::ptrdiff_t>(mesh.face_offset[f + 1]);
+    std::reverse(mesh.corner_position.begin() + first, mesh.corner_position.begin() + last);
+    std::reverse(mesh.corner_uv.begin() + first, mesh.corner_uv.begin() + last);
+}
+
+double face_area(const PolygonMesh &mesh, std::size_t f) {
+    glm::dvec3 sum(0.0);
+    const glm::dvec3 origin = mesh.position[mesh.corner_position[mesh.face_offset[f]]];
+    for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
+        sum += glm::cross(mesh.position[mesh.corner_position[c]] - origin,
+                          mesh.position[mesh.corner_position[mesh.next(f, c)]] - origin);
+    return 0.5 * glm::length(sum);
+}
+
+/// Turns faces over so that neighbours agree; of each connected set the larger area keeps its side.
+void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
+    const EdgeTable edges(mesh);
+    bool any_same = false;
+    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+        any_same |= uses.size() == 2 && uses[0].forward == uses[1].forward;
+    });
+    if (!any_same)
+        return;
+    std::vector<std::vector<std::pair<std::uint32_t, bool>>> links(mesh.face_count());
+    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() != 2)
+            return;
+        const bool same = uses[0].forward == uses[1].forward;
+        links[uses[0].face].emplace_back(uses[1].face, same);
+        links[uses[1].face].emplace_back(uses[0].face, same);
+    });
+    enum class Side : char { unknown, kept, flipped };
+    std::vector<Side> side(mesh.face_count(), Side::unknown);
+    for (std::uint32_t seed = 0; seed < mesh.face_count(); ++seed) {
+        if (side[seed] != Side::unknown)
+            continue;
+        std::vector<std::uint32_t> part{seed};
+        side[seed] = Side::kept;
+        double kept_area = 0.0, flipped_area = 0.0;
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const std::uint32_t f = part[i];
+            (side[f] == Side::kept ? kept_area : flipped_area) += face_area(mesh, f);
+            for (const auto &[other, same] : links[f])
+                if (side[other] == Side::unknown) {
+                    side[other] = (side[f] == Side::kept) == same ? Side::flipped : Side::kept;
+                    part.push_back(other);
+                }
+        }
+        const Side turned = flipped_area > kept_area ? Side::kept : Side::flipped;
+        for (const std::uint32_t f : part)
+            if (side[f] == turned) {
+                flip_face(mesh, f);
+                ++report.flipped_faces;
+            }
+    }
+}
+
+/// Gives each fan of faces about a vertex a vertex of its own. Faces are of one fan if they share
+/// an edge that has exactly two sides of opposite directions. Returns the number of new vertices.
+std::size_t split_fans(PolygonMesh &mesh) {
+    std::vector<std::uint32_t> fan(mesh.corner_position.size());
+    std::iota(fan.begin(), fan.end(), 0u);
+    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() != 2 || uses[0].forward == uses[1].forward)
+            return;
+        for (const std::uint32_t v : {uses[0].low, uses[0].high})
+            unite(fan, corner_at(mesh, uses[0], v), corner_at(mesh, uses[1], v));
+    });
+    // The fan of a vertex' first corner keeps the vertex.
+    std::vector<std::uint32_t> vertex_of_fan(fan.size(), kNone);
+    std::vector<bool> taken(mesh.position.size(), false);
+    const std::size_t before = mesh.position.size();
+    for (std::uint32_t c = 0; c < fan.size(); ++c) {
+        std::uint32_t &v = vertex_of_fan[find_set(fan, c)];
+        const std::uint32_t old = mesh.corner_position[c];
+        if (v == kNone && !taken[old]) {
+            v = old;
+            taken[old] = true;
+        } else if (v == kNone) {
+            v = static_cast<std::uint32_t>(mesh.position.size());
+            mesh.position.push_back(glm::dvec3(mesh.position[old]));
+        }
+        mesh.corner_position[c] = v;
+    }
+    return mesh.position.size() - before;
+}
+
+/// Faces whose edges are still not manifold although their fans were split (both ends are joined
+/// around the edge) get vertices of their own.
+bool detach_faces(PolygonMesh &mesh) {
+    std::set<std::uint32_t> faces;
+    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() > 2 || (uses.size() == 2 && uses[0].forward == uses[1].forward))
+            for (std::size_t i = 1; i < uses.size(); ++i)
+                faces.insert(uses[i].face);
+    });
+    for (const std::uint32_t f : faces)
+        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
+            const glm::dvec3 p = mesh.position[mesh.corner_position[c]];
+            mesh.corner_position[c] = static_cast<std::uint32_t>(mesh.position.size());
+            mesh.position.push_back(p);
+        }
+    return !faces.empty();
+}
+
+void drop_isolated_vertices(PolygonMesh &mesh, ManifoldReport &report) {
+    std::vector<std::uint32_t> number(mesh.position.size(), kNone);
+    for (const std::uint32_t v : mesh.corner_position)
+        number[v] = 0;
+    std::uint32_t count = 0;
+    for (std::size_t v = 0; v < number.size(); ++v)
+        if (number[v] == 0) {
+            number[v] = count;
+            mesh.position[count++] = mesh.position[v];
+        }
+    report.isolated_vertices += mesh.position.size() - count;
+    mesh.position.resize(count);
+    for (std::uint32_t &v : mesh.corner_position)
+        v = number[v];
+}
+
+} // namespace
+
+PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report) {
+    PolygonMesh out = drop_faces(mesh, report);
+    // Vertices that only dropped faces used are not isolated in the file, yet go as well.
+    drop_isolated_vertices(out, report);
+    orient_faces(out, report);
+    EdgeTable(out).for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() > 2)
+            ++report.non_manifold_edges;
+        else if (uses.size() == 2 && uses[0].forward == uses[1].forward)
+            ++report.unorientable_edges;
+    });
+    report.non_manifold_vertices += split_fans(out);
+    while (detach_faces(out))
+        split_fans(out);
+    return out;
+}
+
+} // namespace tsuya::garment
