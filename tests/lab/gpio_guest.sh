@@ -13,8 +13,8 @@ check() { # check WHAT COMMAND...
 }
 level() { cat "/gpio/$1/value"; }
 is_level() { [ "$(level "$1")" = "$2" ]; }
-says() { grep -q "$1" /tmp/said; }
-run() { "$pulses" "$@" >/tmp/said 2>&1; }
+says() { grep -q "$1" said; }
+run() { "$pulses" "$@" >said 2>&1; }
 await_level() { # the level of line $1 becomes $2 within 30 s
     tries=0
     until is_level "$1" "$2"; do
@@ -40,7 +40,7 @@ last_driven_off() { got=$(driven "$1" "$2"); [ "${got##* }" = 0 ]; }
 since=$(trace_length)
 run gpiochip0 shutter lamp 20 100 3
 check "a train ends with status 0" [ $? = 0 ]
-cat /tmp/said
+cat said
 check "the report names 3 pulses" says '^3 pulses'
 check "the shutter moved 3 times" was_driven shutter "$since" "0 1 0 1 0 1 0 0 0"
 check "the lamp went on once and off" was_driven lamp "$since" "0 1 0 0"
@@ -50,12 +50,12 @@ check "the shutter is closed" is_level shutter 0
 # A signal in the middle of a pulse of ten minutes.
 for signal in TERM INT; do
     since=$(trace_length)
-    setsid "$pulses" gpiochip0 shutter lamp 600000 700000 5 >/tmp/said 2>&1 &
+    setsid "$pulses" gpiochip0 shutter lamp 600000 700000 5 >said 2>&1 &
     program=$!
     check "the shutter opens before SIG$signal" await_level shutter 1
     check "the lamp is lit before SIG$signal" is_level lamp 1
-    "$pulses" gpiochip0 shutter lamp 20 100 1 >/tmp/second 2>&1
-    check "a second program learns who holds the line" grep -q "busy.*held by 'tsuya'" /tmp/second
+    "$pulses" gpiochip0 shutter lamp 20 100 1 >second 2>&1
+    check "a second program learns who holds the line" grep -q "busy.*held by 'tsuya'" second
     kill -s "$signal" "$program"
     wait "$program"
     check "SIG$signal ends with status 3" [ $? = 3 ]

@@ -1,0 +1,195 @@
+// Tsuya's rules about its own text, and for each rule texts that break it.
+#include "project/citations.h"
+#include "project/comments.h"
+#include "project/documents.h"
+#include "project/includes.h"
+#include "project/words.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+namespace tsuya::project {
+namespace {
+
+const std::vector<TextFile> &repository() {
+    static const std::vector<TextFile> files = read_repository(repository_root());
+    return files;
+}
+
+/// A repository of one C++ file with one line.
+std::vector<TextFile> one_line(const std::string &path, const std::string &line) {
+    return {{path, "\n" + line + "\n"}};
+}
+
+TEST(Repository, IsFound) {
+    EXPECT_GT(repository().size(), 20u);
+    EXPECT_TRUE(std::any_of(repository().begin(), repository().end(),
+                            [](const TextFile &file) { return file.path == kReferences; }));
+}
+
+TEST(Repository, IncludesFollowTheFolders) {
+    const Findings findings = check_includes(repository());
+    EXPECT_TRUE(findings.empty()) << as_text(findings);
+}
+
+TEST(Repository, CitesWhatReferencesDefine) {
+    const CitationReport report = check_citations(repository());
+    EXPECT_TRUE(report.findings.empty()) << as_text(report.findings);
+    EXPECT_GT(report.citations, 0u);
+    for (const std::string &key : report.unused)
+        std::cout << "warning: " << kReferences << ": [" << key << "] is not cited\n";
+}
+
+TEST(Repository, DocumentsRepeatCompiledCode) {
+    const Findings findings = check_documents(repository());
+    EXPECT_TRUE(findings.empty()) << as_text(findings);
+}
+
+TEST(Repository, NamesNoMachine) {
+    const Findings findings = check_words(repository());
+    EXPECT_TRUE(findings.empty()) << as_text(findings);
+}
+
+// Each of these must be flagged; a rule that lets one through checks nothing.
+TEST(Includes, BadArrowsAreFlagged) {
+    const std::vector<std::pair<std::string, std::string>> bad{
+        {"sdk/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
+        {"sdk/src/a.cpp", "#  include <tsuya/garment/mesh.h>"},
+        {"sdk/include/tsuya/sdk/a.h", "#include \"tsuya/scene/scene.h\""},
+        {"garment/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
+        {"color/src/a.cpp", "#include \"tsuya/garment/mesh.h\""},
+        {"lab/src/a.cpp", "#include \"tsuya/garment/mesh.h\""},
+        {"lab/src/a.cpp", "#include \"tsuya/samples/a.h\""},
+        {"samples/tsuya/a.cpp", "#include \"tests/a.h\""},
+        {"lab/src/a.cpp", "#include \"tsuya/tests/a.h\""},
+        {"color/src/a.cpp", "#include \"tsuya/colour/a.h\""},
+        {"color/src/a.cpp", "#include <embree3/rtcore.h>"},
+        {"sdk/include/tsuya/sdk/a.h", "#include <embree3/rtcore.h>"},
+        {"sdk/include/tsuya/sdk/a.h", "#include <unistd.h>"},
+        {"samples/scene/include/tsuya/scene/a.h", "#include <toml++/toml.h>"},
+        {"tests/color/a_test.cpp", "#include <opensubdiv/far/patch.h>"},
+        {"sdk/src/a.cpp", "#include <gtest/gtest.h>"},
+        {"sdk/src/a.cpp", "#include <boost/optional.hpp>"},
+        {"sdk/src/a.cpp", "#include \"missing.h\""},
+    };
+    for (const auto &[path, line] : bad) {
+        const Findings findings = check_includes(one_line(path, line));
+        ASSERT_EQ(findings.size(), 1u) << path << ' ' << line;
+        EXPECT_TRUE(findings[0].starts_with(path + ":2: ")) << findings[0];
+    }
+}
+
+TEST(Includes, PrivateHeadersStayPrivate) {
+    const TextFile own{"sdk/src/a.h", ""};
+    EXPECT_TRUE(check_includes({own, {"sdk/src/b.cpp", "#include \"a.h\"\n"}}).empty());
+    EXPECT_EQ(check_includes({own, {"sdk/include/tsuya/sdk/b.h", "#include \"a.h\"\n"}}).size(),
+              1u);
+    EXPECT_EQ(check_includes({own, {"color/src/b.cpp", "#include \"../../sdk/src/a.h\"\n"}}).size(),
+              1u);
+    EXPECT_EQ(check_includes({own, {"tests/sdk/b.cpp", "#include \"../../sdk/src/a.h\"\n"}}).size(),
+              1u);
+}
+
+TEST(Includes, GoodOnesPass) {
+    const std::vector<std::pair<std::string, std::string>> good{
+        {"lab/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
+        {"samples/tsuya/a.cpp", "#include \"tsuya/scene/scene.h\""},
+        {"samples/tsuya/a.cpp", "#include <CLI/CLI.hpp>"},
+        {"sdk/include/tsuya/sdk/a.h", "#include <glm/vec3.hpp>"},
+        {"sdk/include/tsuya/sdk/a.h", "#include <string_view>"},
+        {"tests/color/a_test.cpp", "#include <OpenImageIO/imageio.h>"},
+        {"sdk/src/a.cpp", "// #include \"tsuya/color/lamp.h\""},
+        {"sdk/src/a.cpp", "auto s = R\"(\n#include \"tsuya/color/lamp.h\"\n)\";"},
+    };
+    for (const auto &[path, line] : good) {
+        const Findings findings = check_includes(one_line(path, line));
+        EXPECT_TRUE(findings.empty()) << as_text(findings);
+    }
+}
+
+CitationReport cited(const std::string &path, const std::string &text) {
+    return check_citations(
+        {{std::string(kReferences), "# References\n\n- **[Known]** A paper.\n"}, {path, text}});
+}
+
+TEST(Citations, AKnownKeyPassesAndAnUnknownOneDoesNot) {
+    EXPECT_TRUE(cited("a.cpp", "int x; // [Known] Eq. 15\n").findings.empty());
+    EXPECT_TRUE(cited("a.cpp", "int x; // [Known] Eq. 15\n").unused.empty());
+    const std::vector<std::pair<std::string, std::string>> bad{
+        {"a.cpp", "int x; // see [Unknown] Eq. 15\n"}, {"a.h", "/* from [Known],\n [Unknown] */\n"},
+        {"a.md", "As in ([Unknown], Sect. 2)\n"},      {"a.toml", "x = 1 # [Unknown] Table 1\n"},
+        {"CMakeLists.txt", "# as [Unknown] has it\n"},
+    };
+    for (const auto &[path, text] : bad)
+        EXPECT_EQ(cited(path, text).findings.size(), 1u) << path << ": " << text;
+}
+
+TEST(Citations, AreNotFoundInCodeOrLinks) {
+    const std::vector<std::pair<std::string, std::string>> good{
+        {"a.cpp", "auto f = [Unknown] { return table [Unknown]; };\n"},
+        {"a.cpp", "[[Nodiscard]] int x; // an array[Index], a range [Low, High), [N] values\n"},
+        {"a.cpp", "auto s = \"// [Unknown]\"; char c = '\"'; // [Known]\n"},
+        {"a.cpp", "int n = 1'000; auto s = R\"x(\" // [Unknown] )\" )x\";\n"},
+        {"a.md", "[Link](there.md) and [Text][ref] and `v [Index]`\n\n```cpp\n// [Unknown]\n```\n"},
+        {"a.toml", "[Section]\nname = \"x\"\n"},
+    };
+    for (const auto &[path, text] : good)
+        EXPECT_TRUE(cited(path, text).findings.empty()) << as_text(cited(path, text).findings);
+}
+
+TEST(Citations, UnusedAndDoubleKeysAreTold) {
+    EXPECT_EQ(cited("a.cpp", "int x;\n").unused, std::set<std::string>{"Known"});
+    const std::string twice = "- **[Known]** A paper.\n- **[Known]** Another.\n";
+    EXPECT_EQ(check_citations({{std::string(kReferences), twice}}).findings.size(), 1u);
+    EXPECT_EQ(check_citations({}).findings.size(), 1u);
+}
+
+/// A document with the block, and the source that it is cut from.
+Findings documented(const std::string &announcement, const std::string &block) {
+    const std::string source = "int a;\n    // [doc:part]\n    if (b)\n        c();\n\n"
+                               "    // [/doc:part]\n// [doc:open]\n";
+    return check_documents({{"tests/a_test.cpp", source},
+                            {"README.md", announcement + "\n```cpp\n" + block + "\n```\n"}});
+}
+
+TEST(Documents, EqualCodePasses) {
+    const std::string good = "<!-- code: tests/a_test.cpp [doc:part] -->";
+    EXPECT_TRUE(documented(good, "if (b)\n    c();").empty());
+    EXPECT_TRUE(documented(good + "\n", "\n  if (b)\n      c();  \n").empty());
+    EXPECT_TRUE(documented("<!-- code: not compiled: it shows an error -->", "x").empty());
+}
+
+TEST(Documents, EverythingElseIsFlagged) {
+    const std::string good = "<!-- code: tests/a_test.cpp [doc:part] -->";
+    const std::vector<std::pair<std::string, std::string>> bad{
+        {good, "if (b)\n    d();"},
+        {good, "if (b)\nc();"}, // its own indentation counts
+        {good, "if (b)"},
+        {good, "if (b)\n    c();\nd();"},
+        {good, ""},
+        {"", "if (b)\n    c();"},
+        {good + "\nText.", "if (b)\n    c();"},
+        {"<!-- code: tests/b_test.cpp [doc:part] -->", "if (b)\n    c();"},
+        {"<!-- code: tests/a_test.cpp [doc:open] -->", ""},
+        {"<!-- code: tests/a_test.cpp [doc:none] -->", ""},
+        {"<!-- code: tests/a_test.cpp -->", "if (b)\n    c();"},
+    };
+    for (const auto &[announcement, block] : bad)
+        EXPECT_EQ(documented(announcement, block).size(), 1u) << announcement << '\n' << block;
+}
+
+TEST(Words, MachinesAreFlagged) {
+    const std::string sl = "/"; // so that this file does not say the words itself
+    for (const std::string &bad :
+         {sl + "work/main", "cd " + sl + "work", "'" + sl + "root/.cache'",
+          "-B " + sl + "tmp/build-x", "../shared" + sl + "data/x.csv", sl + "home/somebody/x"})
+        EXPECT_EQ(check_words(one_line("a.sh", bad)).size(), 1u) << bad;
+    for (const std::string &good : {std::string("network/workflow"), "https://a.org" + sl + "work/",
+                                    "$HOME" + sl + "work/x", sl + "workers"})
+        EXPECT_TRUE(check_words(one_line("a.sh", good)).empty()) << good;
+    EXPECT_TRUE(check_words(one_line(".ci/run", "../shared" + sl + "data")).empty());
+}
+
+} // namespace
+} // namespace tsuya::project
