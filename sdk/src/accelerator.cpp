@@ -24,10 +24,9 @@ struct Accelerator::State {
     }
 };
 
-Accelerator::Accelerator(const Scene &scene, const glm::dvec3 &centre, int threads)
+Accelerator::Accelerator(const Scene &scene, const glm::dvec3 &centre)
     : state_(std::make_unique<State>()) {
-    const std::string config = threads > 0 ? "threads=" + std::to_string(threads) : "";
-    state_->device = rtcNewDevice(config.empty() ? nullptr : config.c_str());
+    state_->device = rtcNewDevice(nullptr);
     if (!state_->device)
         throw Error({"Embree cannot be started on this machine", "", ""});
     state_->scene = rtcNewScene(state_->device);

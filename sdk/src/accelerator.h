@@ -23,7 +23,7 @@ struct Hit {
 class Accelerator {
   public:
     // \param centre subtracted from every position before it becomes a float
-    Accelerator(const Scene &scene, const glm::dvec3 &centre, int threads);
+    Accelerator(const Scene &scene, const glm::dvec3 &centre);
     ~Accelerator();
     Accelerator(const Accelerator &) = delete;
     Accelerator &operator=(const Accelerator &) = delete;

@@ -51,12 +51,13 @@ Lights::Lights(const Scene &scene, const Plan &plan, const glm::dvec3 &centre,
                             static_cast<double>(mass.size()));
         }
     }
+    // Half in proportion, half even among those that shine: no light is forgotten, a dark one never
+    // drawn
     const double total = std::accumulate(given.begin(), given.end(), 0.0);
+    const auto shining = static_cast<double>(
+        std::count_if(given.begin(), given.end(), [](double g) { return g > 0; }));
     for (const double g : given)
-        // Half in proportion, half even: no light is forgotten
-        choice_.push_back(static_cast<float>(
-            0.5 * (total > 0 ? g / total : 1.0 / static_cast<double>(given.size())) +
-            0.5 / static_cast<double>(given.size())));
+        choice_.push_back(g > 0 ? static_cast<float>(0.5 * g / total + 0.5 / shining) : 0.0f);
 }
 
 std::size_t Lights::choose(float u) const {

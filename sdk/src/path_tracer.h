@@ -34,7 +34,7 @@ struct FirstHit {
 
 // A scene made ready: independent of the number of channels.
 struct PreparedScene {
-    PreparedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts, int threads,
+    PreparedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts,
                   const SpectralBasis &basis);
 
     const Scene &scene;

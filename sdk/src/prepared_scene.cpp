@@ -36,9 +36,9 @@ float mean(const std::vector<float> &v) {
 } // namespace
 
 PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool keep_idle_parts,
-                             int threads, const SpectralBasis &basis)
+                             const SpectralBasis &basis)
     : scene(the_scene), plan(the_plan), centre(middle_of(the_scene)),
-      accelerator(the_scene, centre, threads),
+      accelerator(the_scene, centre),
       lights(the_scene, the_plan, centre, radius_of(the_scene, centre)) {
     std::vector<bool> used(scene.fabrics.size(), keep_idle_parts);
     for (const Object &object : scene.objects)

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <mutex>
 
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #if defined(__x86_64__)
@@ -103,6 +105,10 @@ template <int K> class Job {
 
     void run() {
         const Clock::time_point start = Clock::now();
+        // More threads than processors only where they are asked for
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(std::max(
+                                            settings_.threads, tbb::info::default_concurrency())));
         tbb::task_arena arena(settings_.threads > 0 ? settings_.threads
                                                     : tbb::task_arena::automatic);
         const StopRule &stop = settings_.stop;
@@ -210,7 +216,7 @@ RenderResult render(const Scene &scene, const RenderSettings &settings, const Pr
         load_checkpoint(film, print, settings.checkpoint);
 
     progress("prepare", 0);
-    const PreparedScene prepared(scene, plan(scene, settings), !settings.skip, settings.threads,
+    const PreparedScene prepared(scene, plan(scene, settings), !settings.skip,
                                  {.count = settings.channels});
     RenderResult result;
     result.stats.build_seconds = seconds_since(start);

@@ -1,0 +1,278 @@
+// Scenes whose radiance is known in closed form, and what a render promises: the same picture for
+// any number of threads, tile order, stop and resume, and with every skip off.
+
+#include <filesystem>
+#include <numbers>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "sdk/render_scenes.h"
+#include "tsuya/sdk/error.h"
+
+namespace {
+
+using namespace tsuya;
+using namespace tsuya::test;
+
+RenderSettings quick(int samples) {
+    return {.stop = {.samples_per_pixel = samples}, .channels = 8};
+}
+
+// Largest |value - expected| over all pixels and channels of a group.
+double largest_difference(const SpectralImage &image, std::size_t group, double expected) {
+    double largest = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int k = 0; k < image.basis.count; ++k)
+                largest = std::max(largest, std::abs(image.pixel(group, x, y)[k] - expected));
+    return largest;
+}
+
+Scene furnace(double albedo) {
+    Scene scene;
+    scene.surfaces = {sphere(7, 9)};
+    scene.fabrics = {lambert(albedo)};
+    scene.objects = {{"ball", {0}, {0}}};
+    scene.environment = Environment{.radiance = 1};
+    scene.camera = {.eye = {0, 0.5, 4}, .target = {0, 0, 0}, .width = 24, .height = 24};
+    return scene;
+}
+
+// A white body in a white environment cannot be seen, though its shading normals are far from its
+// triangles' normals.
+TEST(Furnace, WhiteLambertIsInvisible) {
+    RenderSettings settings = quick(64);
+    settings.max_bounces = 1000;
+    const RenderResult result = render(furnace(1.0), settings);
+    EXPECT_LT(largest_difference(result.image, 0, 1.0), 1e-3);
+    EXPECT_EQ(result.stats.not_finite, 0u);
+}
+
+TEST(Furnace, GreyLambertIsSeen) { // negative control
+    RenderSettings settings = quick(64);
+    settings.max_bounces = 1000;
+    EXPECT_GT(largest_difference(render(furnace(0.98), settings).image, 0, 1.0), 1e-2);
+}
+
+// A folded white sheet, with light going back and forth between its folds.
+TEST(Furnace, WhiteFoldsAreInvisible) {
+    Scene scene = folded_satin(20, 20);
+    scene.fabrics[0] = lambert(1);
+    scene.fabrics[1] = lambert(1);
+    scene.rectangles.clear();
+    scene.light_groups = {"key"};
+    scene.environment = Environment{.radiance = 1};
+    RenderSettings settings = quick(16);
+    settings.max_bounces = 4000;
+    EXPECT_LT(largest_difference(render(scene, settings).image, 0, 1.0), 1e-3);
+}
+
+// Irradiance of a parallel rectangle, over its radiance: four times the form factor of a quarter
+// seen from its corner, [Howell] configuration B-4.
+double irradiance_below_rectangle(double a, double b, double height) {
+    const double x = a / height, y = b / height;
+    const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
+    return 4 * 0.5 * (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry));
+}
+
+TEST(ClosedForm, PlaneBelowRectangle) {
+    constexpr double kAlbedo = 0.6, kRadiance = 5, kHalf = 0.7, kHeight = 1.5;
+    Scene scene;
+    scene.surfaces = {floor_square(20)};
+    scene.fabrics = {lambert(kAlbedo)};
+    scene.objects = {{"floor", {0}, {0}}};
+    scene.rectangles = {{.corner = {-kHalf, kHeight, -kHalf},
+                         .edge_u = {2 * kHalf, 0, 0},
+                         .edge_v = {0, 0, 2 * kHalf},
+                         .radiance = kRadiance}};
+    scene.camera = {.eye = {0, 1.2, 0},
+                    .target = {0, 0, 0},
+                    .up = {0, 0, -1},
+                    .vertical_angle = 0.002,
+                    .width = 4,
+                    .height = 4};
+    // edge_u x edge_v looks down
+    const double expected =
+        kAlbedo / std::numbers::pi * kRadiance * irradiance_below_rectangle(kHalf, kHalf, kHeight);
+    const RenderResult result = render(scene, quick(4096));
+    EXPECT_LT(largest_difference(result.image, 0, expected), 2e-3 * expected);
+
+    // The picture sees only the light's other side: dark
+    std::swap(scene.rectangles[0].edge_u, scene.rectangles[0].edge_v);
+    EXPECT_EQ(largest_difference(render(scene, quick(4)).image, 0, 0.0), 0.0);
+}
+
+// An environment picture that is even must give what an even environment gives, though it is
+// sampled.
+TEST(ClosedForm, EvenPictureIsEvenEnvironment) {
+    Scene scene;
+    scene.surfaces = {floor_square(2)};
+    scene.fabrics = {satin(0.3)};
+    scene.objects = {{"cloth", {0}, {0}}};
+    scene.camera = {.eye = {0, 1.2, 0.9},
+                    .target = {0, 0, 0},
+                    .vertical_angle = 0.002,
+                    .width = 4,
+                    .height = 4};
+    scene.environment = Environment{.radiance = 0.7};
+    const float even = *render(scene, quick(4096)).image.pixel(0, 1, 1);
+    Image picture = Image::make(8, 4, {"Y"});
+    std::fill(picture.data.begin(), picture.data.end(), 0.5f);
+    scene.environment = Environment{.radiance = 1.4, .picture = picture};
+    const float sampled = *render(scene, quick(4096)).image.pixel(0, 1, 1);
+    EXPECT_NEAR(sampled, even, 0.01 * even);
+    EXPECT_LT(even, 0.7); // no more than the environment gives
+}
+
+TEST(Promises, SamePictureForAnyNumberOfThreads) {
+    const Scene scene = folded_satin(70, 50);
+    RenderSettings settings = quick(12);
+    settings.threads = 1;
+    const SpectralImage one = render(scene, settings).image;
+    for (const int threads : {2, 7}) {
+        settings.threads = threads;
+        EXPECT_EQ(render(scene, settings).image.transport, one.transport) << threads << " threads";
+    }
+    settings.seed = 1;
+    EXPECT_NE(render(scene, settings).image.transport, one.transport);
+}
+
+TEST(Promises, CropIsThatPartOfThePicture) {
+    const Scene scene = folded_satin(70, 50);
+    RenderSettings settings = quick(4);
+    const SpectralImage whole = render(scene, settings).image;
+    settings.crop = {10, 5, 60, 45};
+    const SpectralImage part = render(scene, settings).image;
+    for (int y = 0; y < 50; ++y)
+        for (int x = 0; x < 70; ++x) {
+            const bool inside = x >= 10 && x < 60 && y >= 5 && y < 45;
+            EXPECT_EQ(part.pixel(0, x, y)[3], inside ? whole.pixel(0, x, y)[3] : 0.0f);
+        }
+}
+
+TEST(Promises, StopAndResumeChangeNothing) {
+    const Scene scene = folded_satin(70, 50);
+    RenderSettings settings = quick(24);
+    const SpectralImage whole = render(scene, settings).image;
+
+    settings.checkpoint = std::filesystem::path(testing::TempDir()) / "tsuya-render.checkpoint";
+    std::filesystem::remove(settings.checkpoint);
+    settings.threads = 2;
+    std::atomic<bool> stop{false};
+    Progress progress{.report = [&](std::string_view, double done) { stop = done > 0.4; },
+                      .stop = &stop};
+    const RenderResult cut = render(scene, settings, progress);
+    ASSERT_TRUE(cut.stats.interrupted);
+    EXPECT_NE(cut.image.transport, whole.transport);
+    ASSERT_TRUE(std::filesystem::exists(settings.checkpoint));
+
+    settings.resume = true;
+    settings.threads = 1;
+    EXPECT_EQ(render(scene, settings).image.transport, whole.transport);
+    EXPECT_FALSE(std::filesystem::exists(settings.checkpoint));
+}
+
+TEST(Promises, CheckpointOfAnotherSceneIsRefused) {
+    RenderSettings settings = quick(24);
+    settings.checkpoint = std::filesystem::path(testing::TempDir()) / "tsuya-other.checkpoint";
+    std::atomic<bool> stop{true};
+    render(folded_satin(70, 50), settings, {.stop = &stop});
+    settings.resume = true;
+    Scene other = folded_satin(70, 50);
+    other.rectangles[0].radiance = 9;
+    try {
+        render(other, settings);
+        FAIL() << "accepted";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems()[0].where, settings.checkpoint.string());
+    }
+    std::filesystem::remove(settings.checkpoint);
+}
+
+TEST(Promises, SkippingChangesNothing) {
+    Scene scene = folded_satin(40, 40);
+    scene.fabrics.push_back(satin(0.2)); // dresses nothing
+    scene.fabrics[1].specular_tint = Spectrum::constant(0);
+    scene.rectangles.push_back({.corner = {0, 3, 0}, .radiance = 0});
+    RenderSettings settings = quick(8);
+    const SpectralImage lean = render(scene, settings).image;
+    EXPECT_GE(plan(scene, settings).skips.size(), 4u);
+    settings.skip = false;
+    EXPECT_TRUE(plan(scene, settings).skips.empty());
+    EXPECT_EQ(render(scene, settings).image.transport, lean.transport);
+}
+
+TEST(Promises, ErrorRuleStopsEarly) {
+    RenderSettings settings = quick(4096);
+    settings.stop.relative_error = 0.2;
+    const RenderResult result = render(folded_satin(32, 32), settings);
+    EXPECT_LT(result.stats.samples_per_pixel, 4096);
+    EXPECT_LE(result.stats.relative_error, 0.2);
+}
+
+// Two lights in two groups add up to both in one group.
+TEST(Promises, GroupsAddUp) {
+    Scene scene = folded_satin(32, 32);
+    const SpectralImage apart = render(scene, quick(16)).image;
+    scene.environment->group = {0};
+    const SpectralImage together = render(scene, quick(16)).image;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x)
+            EXPECT_NEAR(apart.pixel(0, x, y)[2] + apart.pixel(1, x, y)[2],
+                        together.pixel(0, x, y)[2], 1e-5f);
+}
+
+TEST(Promises, FurtherPictures) {
+    RenderSettings settings = quick(4);
+    settings.aovs = aov_names();
+    const SpectralImage image = render(folded_satin(32, 32), settings).image;
+    ASSERT_EQ(image.aovs.size(), aov_names().size());
+    EXPECT_EQ(image.aovs[0].pixel(16, 16)[0], 1.0f);
+    EXPECT_NEAR(image.aovs[1].pixel(16, 16)[0], 4.5, 0.3);
+    EXPECT_NEAR(image.aovs[3].pixel(16, 16)[1], 1.0f, 1e-3);
+    EXPECT_EQ(image.aovs[4].pixel(16, 16)[0], 1.0f);
+}
+
+TEST(Errors, SceneAndSettings) {
+    const auto where = [](const Scene &scene, const RenderSettings &settings) {
+        try {
+            render(scene, settings);
+        } catch (const Error &error) {
+            return error.problems()[0].where;
+        }
+        return std::string("accepted");
+    };
+    const Scene good = folded_satin(8, 8);
+    Scene scene = good;
+    scene.objects[1].fabric = {9};
+    EXPECT_EQ(where(scene, quick(1)), "objects[1].fabric");
+    scene = good;
+    scene.surfaces[0].warp.clear();
+    EXPECT_EQ(where(scene, quick(1)), "objects[0]");
+    scene = good;
+    scene.surfaces[1].triangle[0].x = 77;
+    EXPECT_EQ(where(scene, quick(1)), "surfaces[1]");
+    scene = good;
+    scene.rectangles[0].edge_v = scene.rectangles[0].edge_u;
+    EXPECT_EQ(where(scene, quick(1)), "rectangles[0]");
+    scene = good;
+    scene.camera.up = scene.camera.target - scene.camera.eye;
+    EXPECT_EQ(where(scene, quick(1)), "camera");
+    scene = good;
+    scene.fabrics[0].f0 = 1.5;
+    EXPECT_EQ(where(scene, quick(1)), "fabrics.satin.f0");
+    RenderSettings settings = quick(0);
+    EXPECT_EQ(where(good, settings), "spp");
+    settings = quick(1);
+    settings.channels = 7;
+    EXPECT_EQ(where(good, settings), "channels");
+    settings = quick(1);
+    settings.crop = {0, 0, 9, 8};
+    EXPECT_EQ(where(good, settings), "crop");
+    settings = quick(1);
+    settings.aovs = {"depht"};
+    EXPECT_EQ(where(good, settings), "aov");
+}
+
+} // namespace
