@@ -69,15 +69,17 @@ void find_topology(const Report &r, Findings &f) {
     f.count(r.file.isolated_vertices, note, "isolated_vertices", "vertices belong to no face",
             "dropped");
     f.count(r.file.non_manifold_edges, warning, "non_manifold_edges",
-            "edges border more than two faces", "cut open");
+            "edges border more than two faces", "taken apart in pairs");
     f.count(r.file.non_manifold_vertices, note, "non_manifold_vertices",
             "fans of faces meet others in a vertex alone", "given a vertex of their own");
     f.count(r.file.flipped_faces + r.joined.flipped_faces, warning, "flipped_faces",
             "faces are turned against their neighbours", "turned over");
     f.count(r.file.unorientable_edges + r.joined.unorientable_edges, warning, "unorientable_edges",
             "edges lie on a surface that has one side only", "cut open");
-    f.count(r.joined.non_manifold_edges, warning, "crowded_seams",
-            "edges would border more than two faces after joining", "left open");
+    f.count(r.joined.non_manifold_edges, note, "layered_seams",
+            "edges join more than two layers of cloth", "layers joined in pairs");
+    f.count(r.file.detached_faces + r.joined.detached_faces, warning, "detached_faces",
+            "faces could not be kept with their neighbours", "cut off");
     f.count(r.joined.duplicate_faces + r.joined.degenerate_faces, warning, "collapsed_faces",
             "faces collapsed when seams were joined", "dropped");
 }

@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <numeric>
-#include <queue>
-#include <set>
 
 #include "edges.h"
+#include "fans.h"
 #include "tsuya/garment/seams.h"
 
 namespace tsuya::garment {
@@ -72,15 +69,6 @@ void flip_face(PolygonMesh &mesh, std::size_t f) {
     std::reverse(mesh.corner_uv.begin() + first, mesh.corner_uv.begin() + last);
 }
 
-double face_area(const PolygonMesh &mesh, std::size_t f) {
-    glm::dvec3 sum(0.0);
-    const glm::dvec3 origin = mesh.position[mesh.corner_position[mesh.face_offset[f]]];
-    for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
-        sum += glm::cross(mesh.position[mesh.corner_position[c]] - origin,
-                          mesh.position[mesh.corner_position[mesh.next(f, c)]] - origin);
-    return 0.5 * glm::length(sum);
-}
-
 /// Turns faces over so that neighbours agree; of each connected set the larger area keeps its side.
 void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
     const EdgeTable edges(mesh);
@@ -108,7 +96,9 @@ void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
         double kept_area = 0.0, flipped_area = 0.0;
         for (std::size_t i = 0; i < part.size(); ++i) {
             const std::uint32_t f = part[i];
-            (side[f] == Side::kept ? kept_area : flipped_area) += face_area(mesh, f);
+            double area = 0.0;
+            face_normal(mesh, f, area);
+            (side[f] == Side::kept ? kept_area : flipped_area) += area;
             for (const auto &[other, same] : links[f])
                 if (side[other] == Side::unknown) {
                     side[other] = (side[f] == Side::kept) == same ? Side::flipped : Side::kept;
@@ -122,54 +112,6 @@ void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
                 ++report.flipped_faces;
             }
     }
-}
-
-/// Gives each fan of faces about a vertex a vertex of its own. Faces are of one fan if they share
-/// an edge that has exactly two sides of opposite directions. Returns the number of new vertices.
-std::size_t split_fans(PolygonMesh &mesh) {
-    std::vector<std::uint32_t> fan(mesh.corner_position.size());
-    std::iota(fan.begin(), fan.end(), 0u);
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() != 2 || uses[0].forward == uses[1].forward)
-            return;
-        for (const std::uint32_t v : {uses[0].low, uses[0].high})
-            unite(fan, corner_at(mesh, uses[0], v), corner_at(mesh, uses[1], v));
-    });
-    // The fan of a vertex' first corner keeps the vertex.
-    std::vector<std::uint32_t> vertex_of_fan(fan.size(), kNone);
-    std::vector<bool> taken(mesh.position.size(), false);
-    const std::size_t before = mesh.position.size();
-    for (std::uint32_t c = 0; c < fan.size(); ++c) {
-        std::uint32_t &v = vertex_of_fan[find_set(fan, c)];
-        const std::uint32_t old = mesh.corner_position[c];
-        if (v == kNone && !taken[old]) {
-            v = old;
-            taken[old] = true;
-        } else if (v == kNone) {
-            v = static_cast<std::uint32_t>(mesh.position.size());
-            mesh.position.push_back(glm::dvec3(mesh.position[old]));
-        }
-        mesh.corner_position[c] = v;
-    }
-    return mesh.position.size() - before;
-}
-
-/// Faces whose edges are still not manifold although their fans were split (both ends are joined
-/// around the edge) get vertices of their own.
-bool detach_faces(PolygonMesh &mesh) {
-    std::set<std::uint32_t> faces;
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() > 2 || (uses.size() == 2 && uses[0].forward == uses[1].forward))
-            for (std::size_t i = 1; i < uses.size(); ++i)
-                faces.insert(uses[i].face);
-    });
-    for (const std::uint32_t f : faces)
-        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
-            const glm::dvec3 p = mesh.position[mesh.corner_position[c]];
-            mesh.corner_position[c] = static_cast<std::uint32_t>(mesh.position.size());
-            mesh.position.push_back(p);
-        }
-    return !faces.empty();
 }
 
 void drop_isolated_vertices(PolygonMesh &mesh, ManifoldReport &report) {
@@ -202,8 +144,10 @@ PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report) {
             ++report.unorientable_edges;
     });
     report.non_manifold_vertices += split_fans(out);
-    while (detach_faces(out))
+    while (const std::size_t detached = detach_faces(out)) {
+        report.detached_faces += detached;
         split_fans(out);
+    }
     return out;
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 /// A vertex moves by less than this share of its shortest edge.
 constexpr double kEdgeShare = 0.45;
-/// A vertex is put into an edge only this far from its ends, as a share of the edge.
+/// A vertex is put into an edge only this far from its ends, as a share of the edge, and farther
+/// than the tolerance: a vertex nearer to an end is that end's affair.
 constexpr double kInnerShare = 0.02;
 /// Rounds of T-junctions; each can uncover others on the edges that it made.
 constexpr int kMaxRounds = 8;
@@ -164,6 +165,17 @@ struct Insertion {
     double t;
     std::uint32_t vertex;
     double distance;
+    std::uint32_t origin = 0; ///< see Sewn
+};
+
+/// A mesh while it is being sewn. `origin` tells, per corner, its vertex before anything was
+/// joined, so that edges which were laid onto each other can be told apart. A new corner gets a new
+/// number, the same on both sides of an edge inside a panel.
+struct Sewn {
+    PolygonMesh mesh;
+    std::vector<std::uint32_t> origin;
+    std::uint32_t next_origin = 0;
+    bool triangles = false; ///< all faces are, and shall stay, triangles
 };
 
 /// Open edges by place.
@@ -193,7 +205,8 @@ class OpenEdges {
                 mesh_.position[mesh_.corner_position[mesh_.next(e.face, e.corner)]];
             const double length2 = glm::dot(b - a, b - a);
             const double t = length2 > 0.0 ? glm::dot(p - a, b - a) / length2 : 0.0;
-            if (t < kInnerShare || t > 1.0 - kInnerShare)
+            if (t < kInnerShare || t > 1.0 - kInnerShare ||
+                std::min(glm::distance(p, a), glm::distance(p, b)) <= tolerance_)
                 continue;
             const double distance = glm::distance(p, a + t * (b - a));
             const double reach = std::min(tolerance_, kEdgeShare * std::sqrt(length2));
@@ -228,6 +241,7 @@ struct GrownFace {
     std::vector<std::uint32_t> vertex;
     std::vector<std::int32_t> uv;
     std::vector<glm::dvec2> plane;
+    std::vector<std::uint32_t> origin;
 };
 
 /// The corners of a triangle in its own plane.
@@ -242,8 +256,9 @@ std::array<glm::dvec2, 3> flatten(const PolygonMesh &mesh, std::size_t f) {
             glm::dvec2(glm::dot(ac, ab) / length, glm::length(glm::cross(ab, ac)) / length)};
 }
 
-GrownFace grow_face(const PolygonMesh &mesh, std::size_t f, std::span<const Insertion> insertions,
+GrownFace grow_face(const Sewn &sewn, std::size_t f, std::span<const Insertion> insertions,
                     std::vector<glm::dvec2> &uvs) {
+    const PolygonMesh &mesh = sewn.mesh;
     GrownFace grown;
     const std::uint32_t first = mesh.face_offset[f];
     const auto corners = mesh.face_size(f) == 3 ? flatten(mesh, f) : std::array<glm::dvec2, 3>{};
@@ -253,9 +268,11 @@ GrownFace grow_face(const PolygonMesh &mesh, std::size_t f, std::span<const Inse
         grown.vertex.push_back(mesh.corner_position[c]);
         grown.uv.push_back(mesh.corner_uv[c]);
         grown.plane.push_back(a);
+        grown.origin.push_back(sewn.origin[c]);
         for (const Insertion &i : insertions) {
             if (i.corner != c)
                 continue;
+            grown.origin.push_back(i.origin);
             grown.vertex.push_back(i.vertex);
             grown.plane.push_back(a + i.t * (b - a));
             if (mesh.corner_uv[c] < 0 || mesh.corner_uv[n] < 0) {
@@ -265,35 +282,75 @@ GrownFace grow_face(const PolygonMesh &mesh, std::size_t f, std::span<const Inse
             const glm::dvec2 s = uvs[static_cast<std::size_t>(mesh.corner_uv[c])];
             const glm::dvec2 e = uvs[static_cast<std::size_t>(mesh.corner_uv[n])];
             grown.uv.push_back(static_cast<std::int32_t>(uvs.size()));
-            uvs.push_back(s + i.t * (e - s));
+            uvs.push_back((1.0 - i.t) * s + i.t * e);
         }
     }
     return grown;
 }
 
 /// Puts the vertices into their edges. `insertions` are sorted by corner, then t.
-PolygonMesh insert_vertices(const PolygonMesh &mesh, const std::vector<Insertion> &insertions,
-                            bool triangles) {
-    PolygonMesh out;
-    out.position = mesh.position;
-    out.uv = mesh.uv;
-    out.panel_name = mesh.panel_name;
+Sewn insert_vertices(const Sewn &sewn, const std::vector<Insertion> &insertions) {
+    const PolygonMesh &mesh = sewn.mesh;
+    Sewn out{
+        .mesh = {}, .origin = {}, .next_origin = sewn.next_origin, .triangles = sewn.triangles};
+    out.mesh.position = mesh.position;
+    out.mesh.uv = mesh.uv;
+    out.mesh.panel_name = mesh.panel_name;
     std::size_t next = 0;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const std::size_t first = next;
         while (next < insertions.size() && insertions[next].corner < mesh.face_offset[f + 1])
             ++next;
         const GrownFace grown =
-            grow_face(mesh, f, std::span(insertions).subspan(first, next - first), out.uv);
-        if (next == first || !triangles) {
-            out.add_face(grown.vertex, grown.uv, mesh.face_panel[f]);
+            grow_face(sewn, f, std::span(insertions).subspan(first, next - first), out.mesh.uv);
+        if (next == first || !sewn.triangles) {
+            out.mesh.add_face(grown.vertex, grown.uv, mesh.face_panel[f]);
+            out.origin.insert(out.origin.end(), grown.origin.begin(), grown.origin.end());
             continue;
         }
-        for (const auto &[a, b, c] : split_triangle(grown.plane))
-            out.add_face({grown.vertex[a], grown.vertex[b], grown.vertex[c]},
-                         {grown.uv[a], grown.uv[b], grown.uv[c]}, mesh.face_panel[f]);
+        for (const auto &[a, b, c] : split_triangle(grown.plane)) {
+            out.mesh.add_face({grown.vertex[a], grown.vertex[b], grown.vertex[c]},
+                              {grown.uv[a], grown.uv[b], grown.uv[c]}, mesh.face_panel[f]);
+            out.origin.insert(out.origin.end(),
+                              {grown.origin[a], grown.origin[b], grown.origin[c]});
+        }
     }
     return out;
+}
+
+/// Where a step laid an edge inside a panel onto another edge (a fold one edge deep), the edge gets
+/// a vertex in its middle, so that the two stay different.
+void halve_coincident_edges(Sewn &sewn) {
+    const PolygonMesh &mesh = sewn.mesh;
+    std::vector<glm::dvec3> middles;
+    std::vector<Insertion> insertions;
+    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() < 3)
+            return;
+        const auto origin = [&](const EdgeUse &use) {
+            return std::pair(sewn.origin[corner_at(mesh, use, use.low)],
+                             sewn.origin[corner_at(mesh, use, use.high)]);
+        };
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            for (std::size_t j = i + 1; j < uses.size(); ++j) {
+                if (origin(uses[i]) != origin(uses[j]))
+                    continue;
+                const auto middle =
+                    static_cast<std::uint32_t>(mesh.position.size() + middles.size());
+                const glm::dvec3 low = mesh.position[uses[i].low];
+                middles.push_back(low + 0.5 * (mesh.position[uses[i].high] - low));
+                for (const EdgeUse &use : {uses[i], uses[j]})
+                    insertions.push_back({use.corner, 0.5, middle, 0.0, sewn.next_origin});
+                ++sewn.next_origin;
+            }
+    });
+    if (insertions.empty())
+        return;
+    sewn.mesh.position.insert(sewn.mesh.position.end(), middles.begin(), middles.end());
+    std::sort(insertions.begin(), insertions.end(),
+              [](const Insertion &a, const Insertion &b) { return a.corner < b.corner; });
+    sewn = insert_vertices(sewn, insertions);
+    share_equal_uvs(sewn.mesh);
 }
 
 /// One round: every open vertex goes into the nearest open edge that it lies on.
@@ -330,24 +387,29 @@ PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, Seam
         std::max(options.tolerance, kRounding * glm::distance(box.lower, box.upper));
     VertexJoiner joiner(mesh, tolerance);
     joiner.join(report);
-    PolygonMesh joined = joiner.result();
-
-    bool triangles = true;
+    Sewn sewn{.mesh = joiner.result(),
+              .origin = mesh.corner_position,
+              .next_origin = static_cast<std::uint32_t>(mesh.position.size()),
+              .triangles = true};
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        triangles &= mesh.face_size(f) == 3;
+        sewn.triangles &= mesh.face_size(f) == 3;
+    halve_coincident_edges(sewn);
     for (int round = 0; round < kMaxRounds; ++round) {
-        const std::vector<Insertion> insertions = find_insertions(joined, tolerance);
+        std::vector<Insertion> insertions = find_insertions(sewn.mesh, tolerance);
         if (insertions.empty())
             break;
-        joined = insert_vertices(joined, insertions, triangles);
-        report.splits += insertions.size();
-        for (const Insertion &i : insertions)
+        for (Insertion &i : insertions) {
+            i.origin = sewn.next_origin++;
             report.largest_gap = std::max(report.largest_gap, i.distance);
+        }
+        report.splits += insertions.size();
+        sewn = insert_vertices(sewn, insertions);
+        halve_coincident_edges(sewn);
     }
-    const std::vector<EdgeUse> open = open_edges(joined);
+    const std::vector<EdgeUse> open = open_edges(sewn.mesh);
     report.boundary_after = ends_of(open).size();
-    report.unresolved = find_insertions(joined, tolerance).size();
-    return joined;
+    report.unresolved = find_insertions(sewn.mesh, tolerance).size();
+    return std::move(sewn.mesh);
 }
 
 } // namespace tsuya::garment

@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "edges.h"
+#include "fans.h"
 #include "limit_numbering.h"
 #include "tsuya/sdk/error.h"
 
@@ -129,17 +130,6 @@ glm::dvec3 centre_of(const PolygonMesh &mesh) {
     return 0.5 * (lower + upper);
 }
 
-/// Normal by the area of the polygon; z where the face has no area.
-glm::dvec3 face_normal(const PolygonMesh &mesh, std::size_t f) {
-    glm::dvec3 sum(0.0);
-    const glm::dvec3 origin = mesh.position[mesh.corner_position[mesh.face_offset[f]]];
-    for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
-        sum += glm::cross(mesh.position[mesh.corner_position[c]] - origin,
-                          mesh.position[mesh.corner_position[mesh.next(f, c)]] - origin);
-    const double length = glm::length(sum);
-    return length > 0.0 && std::isfinite(length) ? sum / length : glm::dvec3(0, 0, 1);
-}
-
 /// Position and derivatives at one point of one face.
 struct Sample {
     glm::dvec3 p, p_u, p_v;
@@ -201,7 +191,7 @@ class FaceEvaluator {
             ++s.repaired_normals;
             sample = sample_at(nudged(at, s), s);
             if (!sample.normal(n))
-                n = face_normal(mesh_, face);
+                n = any_normal(face);
         }
         out_.normal[vertex] = glm::vec3(n);
         out_.panel[vertex] = mesh_.face_panel[face];
@@ -216,6 +206,13 @@ class FaceEvaluator {
         if (!mesh_.uv.empty())
             s.uv_surface.Evaluate(&at.x, s.uv_points.data(), 2, &r.t.x, &r.t_u.x, &r.t_v.x);
         return r;
+    }
+
+    /// Normal of the control face; z where that has no area.
+    glm::dvec3 any_normal(std::size_t face) const {
+        double area = 0.0;
+        const glm::dvec3 n = face_normal(mesh_, face, area);
+        return area > 0.0 ? n : glm::dvec3(0, 0, 1);
     }
 
     glm::dvec2 nudged(const glm::dvec2 &at, const Scratch &s) const {

@@ -54,10 +54,11 @@ struct SeamReport {
 struct ManifoldReport {
     std::size_t degenerate_faces = 0;      ///< fewer than 3 different vertices; dropped
     std::size_t duplicate_faces = 0;       ///< same vertices as an earlier face; dropped
-    std::size_t non_manifold_edges = 0;    ///< shared by more than two faces; cut open
+    std::size_t non_manifold_edges = 0;    ///< shared by more than two faces; taken in pairs
     std::size_t non_manifold_vertices = 0; ///< joined more than one fan of faces; split
     std::size_t flipped_faces = 0;         ///< turned over to agree with their neighbours
     std::size_t unorientable_edges = 0;    ///< no side can be told (Moebius strip); cut open
+    std::size_t detached_faces = 0;        ///< could not be kept with their neighbours; cut off
     std::size_t isolated_vertices = 0;     ///< belong to no face; dropped
 };
 

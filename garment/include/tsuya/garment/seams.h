@@ -23,8 +23,8 @@ PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, Seam
 /// Makes every edge border at most two faces of one orientation and every vertex join one fan of
 /// faces, as half-edge meshes need: drops degenerate and duplicate faces and isolated vertices,
 /// turns faces over where that makes neighbours agree (the larger area of a part keeps its side),
-/// and cuts open what remains. All of it is counted.
-/// \param mesh valid indices
+/// takes the sides of crowded edges in pairs (layers of a pleat), and cuts open what remains. All
+/// of it is counted. \param mesh valid indices
 PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report);
 
 } // namespace tsuya::garment
