@@ -9,10 +9,10 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include "channels.h"
-#include "new_file.h"
 #include "rows.h"
 #include "tsuya/color/srgb.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -259,7 +259,7 @@ std::string DisplayConfig::text() const {
     return stream.str();
 }
 
-void DisplayConfig::save(const std::filesystem::path &path) const { write_text_file(path, text()); }
+void DisplayConfig::save(const std::filesystem::path &path) const { write_file(path, text()); }
 
 Image display(const Image &xyz, const glm::dvec3 &lamp_white_xyz, const DisplayOptions &options) {
     return DisplayConfig({{"lamp", lamp_white_xyz}}).display(xyz, "lamp", options);

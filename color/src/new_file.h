@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// A file that appears under its name only when it is complete.
+/// A file that another library writes, and that appears under its name only when it is complete.
 
 #include <filesystem>
-#include <string>
 
 namespace tsuya {
 
@@ -25,8 +24,5 @@ class NewFile {
     std::filesystem::path target_;
     std::filesystem::path temporary_;
 };
-
-/// Writes a text by NewFile. Throws Error at `path`.
-void write_text_file(const std::filesystem::path &path, const std::string &text);
 
 } // namespace tsuya

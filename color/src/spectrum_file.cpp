@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "new_file.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya {
 namespace {
@@ -153,7 +153,7 @@ void write_spectrum_csv(const std::filesystem::path &path, const Spectrum &spect
     text << "wavelength_nm,value\n";
     for (std::size_t i = 0; i < spectrum.value.size(); ++i)
         text << spectrum.wavelength_nm[i] << ',' << spectrum.value[i] << '\n';
-    write_text_file(path, text.str());
+    write_file(path, text.str());
 }
 
 } // namespace tsuya

@@ -27,7 +27,7 @@ SpectralImage some_transport() {
         t = uniform(random);
     image.aov_names = {"coverage", "normal"};
     image.aovs = {ramp(37, 29, {"Y"}), ramp(37, 29, {"z", "x", "R"})};
-    image.metadata = {{"samples_per_pixel", "64"}, {"note", "K = 16; \"quoted\""}, {"empty", ""}};
+    image.metadata = {{"samples_per_pixel", "64"}, {"note", "K = 16; \"quoted\""}};
     return image;
 }
 

@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Dyes: the diffuse reflectance of dyed silk over wavelength.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tsuya/sdk/spectrum.h"
+
+namespace tsuya {
+
+/// The names that `dye` knows, from white over the colours to black.
+std::vector<std::string> dye_names();
+
+/// Reflectance (0..1) of a named dye on silk, at 5 nm from 360 to 830 nm. These are models of ours,
+/// not measurements: the absorption of the dye is a sum of Gaussian bands and smooth edges, added
+/// to that of the undyed cloth (0.80, a little less in the blue), and turned into reflectance by
+/// the one-constant theory of [Kubelka]. Throws Error for an unknown name, with the known ones and
+/// the nearest.
+Spectrum dye(std::string_view name);
+
+/// One line about a named dye. Throws Error as `dye`.
+std::string dye_description(std::string_view name);
+
+/// A dye as programs name it: a name of `dye_names()`; a path that ends in `.csv` (see
+/// read_spectrum_csv; values 0..1), relative to `folder`; or `#rrggbb`, see reflectance_of_srgb.
+/// Throws Error as those do, or at `where`.
+Spectrum parse_dye(const std::string &spec, const std::filesystem::path &folder = {},
+                   const std::string &where = "dye");
+
+} // namespace tsuya

@@ -1,0 +1,98 @@
+#include "tsuya/color/dye.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "color_test.h"
+#include "tsuya/color/difference.h"
+#include "tsuya/color/lamp.h"
+#include "tsuya/color/observer.h"
+#include "tsuya/color/srgb.h"
+
+namespace tsuya {
+namespace {
+
+glm::dvec3 lab_under(const Spectrum &lit, const Spectrum &reflectance) {
+    return lab_of(xyz_of(lit, reflectance), white_of(lit));
+}
+
+double hue_deg(const glm::dvec3 &lab) {
+    const double h = std::atan2(lab.z, lab.y) * 180 / std::numbers::pi;
+    return h < 0 ? h + 360 : h;
+}
+
+TEST(Dye, EveryNameIsAReflectance) {
+    EXPECT_GE(dye_names().size(), 13u);
+    for (const std::string &name : dye_names()) {
+        const Spectrum s = dye(name);
+        EXPECT_NO_THROW(check_spectrum(s, 0.005, 0.85, name));
+        EXPECT_FALSE(dye_description(name).empty());
+        for (std::size_t i = 1; i < s.value.size(); ++i) // smooth: the K hats can follow
+            EXPECT_LT(std::abs(s.value[i] - s.value[i - 1]), 0.13) << name;
+        EXPECT_EQ(parse_dye(name).value, s.value);
+    }
+}
+
+TEST(Dye, WhiteIsNearlyFlat) {
+    const Spectrum white = dye("white");
+    EXPECT_NEAR(white.at(560), 0.80, 0.005);
+    EXPECT_LT(white.at(400), white.at(560));
+    EXPECT_GT(white.at(400), 0.70);
+}
+
+TEST(Dye, LooksLikeItsName) {
+    struct Row {
+        const char *name;
+        double low_deg, high_deg, low_l, high_l; ///< hue angle and lightness in CIELAB under D65
+    };
+    const Spectrum d65 = lamp("D65");
+    for (const Row &row : {Row{"gold", 65, 90, 65, 80}, Row{"vermilion", 25, 50, 40, 55},
+                           Row{"madder", 15, 40, 35, 50}, Row{"crimson", 5, 25, 25, 40},
+                           Row{"violet", 280, 310, 30, 50}, Row{"indigo", 265, 295, 20, 40},
+                           Row{"turquoise", 195, 235, 60, 75}, Row{"emerald", 140, 175, 45, 60}}) {
+        const glm::dvec3 lab = lab_under(d65, dye(row.name));
+        EXPECT_GT(hue_deg(lab), row.low_deg) << row.name;
+        EXPECT_LT(hue_deg(lab), row.high_deg) << row.name;
+        EXPECT_GT(lab.x, row.low_l) << row.name;
+        EXPECT_LT(lab.x, row.high_l) << row.name;
+    }
+    EXPECT_LT(lab_under(d65, dye("black")).x, 20);
+    EXPECT_GT(lab_under(d65, dye("ivory")).z, 5);
+}
+
+TEST(Dye, ColoursDifferUnderMetalHalideAndTungsten) {
+    for (const char *name : {"gold", "vermilion", "crimson", "rose", "turquoise", "emerald"})
+        EXPECT_GT(ciede2000(lab_under(lamp("HP4"), dye(name)), lab_under(lamp("A"), dye(name))), 3)
+            << name;
+    EXPECT_LT(ciede2000(lab_under(lamp("HP4"), dye("silver")), lab_under(lamp("A"), dye("silver"))),
+              1.5);
+}
+
+TEST(Dye, ParsesNamesFilesAndColours) {
+    const test::Folder folder;
+    folder.write("silk.csv", "400,0.2\n700,0.6\n");
+    EXPECT_NEAR(parse_dye("silk.csv", folder / "").at(550), 0.4, 1e-12);
+    const glm::dvec3 xyz = xyz_of(lamp("D65"), parse_dye("#c04020"));
+    const glm::dvec3 rgb = srgb_from_xyz() * xyz;
+    EXPECT_NEAR(255 * srgb_encode(rgb.x), 0xc0, 0.1);
+    EXPECT_NEAR(255 * srgb_encode(rgb.y), 0x40, 0.1);
+    EXPECT_NEAR(255 * srgb_encode(rgb.z), 0x20, 0.1);
+}
+
+TEST(Dye, RefusesWrongSpecs) {
+    test::expect_problem([] { dye("crimsom"); }, "dye", "did you mean crimson?");
+    test::expect_problem([] { dye_description("blue"); }, "dye", "expected one of: white");
+    test::expect_problem([] { parse_dye("blue", {}, "fabrics.satin.dye"); }, "fabrics.satin.dye",
+                         "#rrggbb");
+    test::expect_problem([] { parse_dye("#12", {}, "fabrics.satin.dye"); }, "fabrics.satin.dye",
+                         "not an sRGB colour");
+    const test::Folder folder;
+    const auto path = folder.write("bright.csv", "400,0.2\n700,60\n");
+    test::expect_problem([&] { parse_dye(path.string()); }, path.string() + ":2:5",
+                         "expected 0 to 1");
+}
+
+} // namespace
+} // namespace tsuya
