@@ -28,11 +28,11 @@ SECTIONS = np.array([
     [1.470, 0.053, 0.049, 0.052, 2.0, -0.012],
     [1.500, 0.050, 0.049, 0.050, 2.0, -0.006],
     [1.520, 0.051, 0.056, 0.052, 2.0, 0.000],
-    [1.540, 0.058, 0.078, 0.062, 2.0, 0.004],
-    [1.570, 0.067, 0.091, 0.078, 2.0, 0.006],
-    [1.610, 0.074, 0.097, 0.092, 2.0, 0.006],
-    [1.650, 0.076, 0.096, 0.098, 2.0, 0.004],
-    [1.690, 0.070, 0.084, 0.090, 2.0, 0.000],
+    [1.540, 0.057, 0.068, 0.060, 2.0, 0.004],
+    [1.570, 0.065, 0.083, 0.075, 2.0, 0.006],
+    [1.610, 0.072, 0.090, 0.088, 2.0, 0.006],
+    [1.650, 0.074, 0.090, 0.093, 2.0, 0.004],
+    [1.690, 0.069, 0.080, 0.086, 2.0, 0.000],
     [1.715, 0.057, 0.066, 0.072, 2.0, -0.003],
     [1.730, 0.042, 0.047, 0.052, 2.0, -0.004],
 ])
@@ -172,7 +172,6 @@ class _Builder:
                 + [(k - i, k) for i in range(k)] + [(0, k - i) for i in range(k)])
         order = ring_ids if height >= 0 else ring_ids[::-1]
         ids = dict(zip(edge, order))
-        angle_of = {e: i for i, e in enumerate(edge)}
         point_of = dict(zip(edge, [np.array(self.v[i]) for i in order]))
         for i in range(1, k):
             for j in range(1, k):
@@ -188,7 +187,6 @@ class _Builder:
                 f = (ea - lo[0]) + (eb - lo[1])
                 p = (1 - f) * point_of[lo] + f * point_of[hi]
                 ids[i, j] = self.vertex(centre + q * (p - centre) + [0, height * (1 - q * q), 0])
-        del angle_of
         sign = 1 if height >= 0 else -1
         uv = {e: self.uv((self.v[n][0], -sign * self.v[n][2])) for e, n in ids.items()}
         for i in range(k):

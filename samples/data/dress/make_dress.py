@@ -23,16 +23,16 @@ WAIST_TOP, WAIST_BOTTOM = 1.083, 1.035
 STRAP_ROWS = 30
 SKIRT_ROWS = 54
 SKIRT_LENGTH = 0.975
-SKIRT_SPREAD = 3.7          # radians of the circle that the six gores make together
-PETTICOAT_HEM = 0.255
-GATHER = 1.16               # skirt top length over waistband length
+SKIRT_SPREAD = 4.0          # radians of the circle that the six gores make together
+PETTICOAT_HEM = 0.26
+GATHER = 1.08               # skirt top length over waistband length
 CLEARANCE = 0.006           # of the cloth's vertices from the figure
 EASE = 1.018                # bodice pattern over body
 
 DENSITY = 0.14              # kg/m2
 THREAD_STIFFNESS = 1200.0   # N/m along warp and weft
 SHEAR_STIFFNESS = 60.0      # N/m at 45 degrees to them
-BENDING = 6.5e-5            # N m
+BENDING = 3.5e-5            # N m
 
 # name, first and last bodice column, grain (degrees that the pattern is turned on the cloth)
 BODICE_PANELS = [
@@ -208,7 +208,7 @@ class Dress:
         g = np.linspace(0, 1, SKIRT_ROWS + 1)
         r = r0 + SKIRT_LENGTH * (0.42 * g + 0.58 * g ** 1.55)
         slope = SKIRT_SPREAD / (2 * np.pi)
-        waves = [(k, self.rng.normal(), self.rng.uniform(0, 2 * np.pi)) for k in range(3, 17)]
+        waves = [(k, self.rng.normal(), self.rng.uniform(0, 2 * np.pi)) for k in range(6, 20)]
         rows = [self.hem_of_band]
         for radius in r[1:]:
             t = radius - r0
@@ -218,7 +218,7 @@ class Dress:
             for i in range(n):
                 a = 2 * np.pi * i / n
                 wave = sum(w * np.cos(k * a + phase + 0.8 * t) for k, w, phase in waves)
-                circle = (radius * slope + 0.012 * t * wave) * np.array([np.sin(a), np.cos(a)])
+                circle = (radius * slope + 0.025 * t * wave) * np.array([np.sin(a), np.cos(a)])
                 waist = self.points[self.hem_of_band[i]][[0, 2]]
                 x, z = (1 - b) * waist * (1 + 1.2 * t) + b * circle
                 row.append(self.add([x, WAIST_BOTTOM - t * np.sqrt(1 - slope ** 2), z]))
@@ -436,11 +436,7 @@ def main():
     field = DistanceField(figure)
     dress = Dress(figure, field, np.random.default_rng(7))
     print(f"{len(dress.start)} vertices, {sum(len(p.faces) for p in dress.panels)} quads, {time.time() - begin:.0f} s")
-    if os.environ.get("TSUYA_FLAT"):
-        position = dress.start
-    else:
-        position = drape(dress, field)
-    write_dress(os.path.join(arguments[0], "dress.obj"), dress, position)
+    write_dress(os.path.join(arguments[0], "dress.obj"), dress, drape(dress, field))
     print(f"done in {time.time() - begin:.0f} s")
 
 
