@@ -22,7 +22,7 @@ Prepared prepare(const PolygonMesh &metres, const SeamOptions &options) {
         report.loops_before = boundary_runs(half_edges).size();
     }
     // The garment: panels joined along their seams.
-    out.mesh = make_manifold(join_seams(panels, options, report.seams), report.joined);
+    out.mesh = join_seams(panels, options, report.seams, report.joined);
     const HalfEdgeMesh half_edges = make_half_edges(out.mesh);
     report.parts = count_parts(half_edges);
     report.openings = measure_loops(half_edges);

@@ -91,6 +91,8 @@ void find_seams(const Report &r, Findings &f) {
             "joined");
     f.count(r.seams.splits, Severity::note, "t_junctions",
             "boundary vertices lie on another panel's edge", "put into that edge");
+    f.count(r.seams.slits, Severity::note, "slits",
+            "gaps along seams are wider than the tolerance but narrow", "closed");
     f.count(r.seams.unresolved, Severity::warning, "unresolved_seams",
             "boundary vertices lie near another boundary and could not be joined",
             "look at the seam, or state another tolerance");

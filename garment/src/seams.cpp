@@ -7,7 +7,7 @@
 
 #include "edges.h"
 #include "place_grid.h"
-#include "split_triangle.h"
+#include "sewing.h"
 #include "topology.h"
 
 namespace tsuya::garment {
@@ -16,10 +16,13 @@ namespace {
 /// A vertex moves by less than this share of its shortest edge.
 constexpr double kEdgeShare = 0.45;
 /// A vertex is put into an edge only this far from its ends, as a share of the edge, and farther
-/// than the tolerance: a vertex nearer to an end is that end's affair.
+/// than the tolerance or the second share: a vertex nearer to an end is that end's affair.
 constexpr double kInnerShare = 0.02;
+constexpr double kEndShare = 0.2;
 /// Rounds of T-junctions; each can uncover others on the edges that it made.
 constexpr int kMaxRounds = 8;
+/// Passes over slits; closing one can leave a shorter one.
+constexpr int kMaxSlitPasses = 3;
 
 struct Box {
     glm::dvec3 lower{std::numeric_limits<double>::max()};
@@ -35,11 +38,17 @@ Box bounds(const PolygonMesh &mesh) {
     return box;
 }
 
+/// The vertices that may be joined: those of `member`, or all where it is empty.
+struct VertexSet {
+    std::vector<bool> member{};
+    bool has(std::uint32_t v) const { return member.empty() || (v < member.size() && member[v]); }
+};
+
 /// Sides of edges that only one face has.
-std::vector<EdgeUse> open_edges(const PolygonMesh &mesh) {
+std::vector<EdgeUse> open_edges(const PolygonMesh &mesh, const VertexSet &allowed) {
     std::vector<EdgeUse> open;
     EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() == 1)
+        if (uses.size() == 1 && allowed.has(uses[0].low) && allowed.has(uses[0].high))
             open.push_back(uses[0]);
     });
     return open;
@@ -59,18 +68,17 @@ std::vector<std::uint32_t> ends_of(const std::vector<EdgeUse> &edges) {
 /// Clusters of boundary vertices that become one vertex.
 class VertexJoiner {
   public:
-    VertexJoiner(const PolygonMesh &mesh, double tolerance)
+    VertexJoiner(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed)
         : mesh_(mesh), tolerance_(tolerance), parent_(mesh.position.size()),
           members_(mesh.position.size()), faces_(mesh.position.size()) {
         std::iota(parent_.begin(), parent_.end(), 0u);
         const HalfEdgeMesh half_edges = make_half_edges(mesh);
         for (const auto v : half_edges.vertices())
-            if (half_edges.is_boundary(v) && !half_edges.is_isolated(v))
+            if (half_edges.is_boundary(v) && allowed.has(static_cast<std::uint32_t>(v.idx())))
                 add_boundary_vertex(half_edges, v);
     }
 
     void join(SeamReport &report) {
-        report.boundary_before = boundary_.size();
         struct Pair {
             double distance;
             std::uint32_t a, b;
@@ -159,30 +167,11 @@ class VertexJoiner {
     std::vector<double> reach_; ///< how far a vertex may be joined
 };
 
-/// A vertex to be put into an edge, at `t` from the start of the edge's side.
-struct Insertion {
-    std::uint32_t corner; ///< where the side of the edge starts
-    double t;
-    std::uint32_t vertex;
-    double distance;
-    std::uint32_t origin = 0; ///< see Sewn
-};
-
-/// A mesh while it is being sewn. `origin` tells, per corner, its vertex before anything was
-/// joined, so that edges which were laid onto each other can be told apart. A new corner gets a new
-/// number, the same on both sides of an edge inside a panel.
-struct Sewn {
-    PolygonMesh mesh;
-    std::vector<std::uint32_t> origin;
-    std::uint32_t next_origin = 0;
-    bool triangles = false; ///< all faces are, and shall stay, triangles
-};
-
 /// Open edges by place.
 class OpenEdges {
   public:
-    OpenEdges(const PolygonMesh &mesh, double tolerance)
-        : mesh_(mesh), tolerance_(tolerance), edges_(open_edges(mesh)),
+    OpenEdges(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed)
+        : mesh_(mesh), tolerance_(tolerance), edges_(open_edges(mesh, allowed)),
           grid_(bounds(mesh).lower, cell_size()) {
         for (std::uint32_t i = 0; i < edges_.size(); ++i) {
             const glm::dvec3 a = mesh.position[edges_[i].low], b = mesh.position[edges_[i].high];
@@ -205,8 +194,9 @@ class OpenEdges {
                 mesh_.position[mesh_.corner_position[mesh_.next(e.face, e.corner)]];
             const double length2 = glm::dot(b - a, b - a);
             const double t = length2 > 0.0 ? glm::dot(p - a, b - a) / length2 : 0.0;
+            const double room = std::min(tolerance_, kEndShare * std::sqrt(length2));
             if (t < kInnerShare || t > 1.0 - kInnerShare ||
-                std::min(glm::distance(p, a), glm::distance(p, b)) <= tolerance_)
+                std::min(glm::distance(p, a), glm::distance(p, b)) <= room)
                 continue;
             const double distance = glm::distance(p, a + t * (b - a));
             const double reach = std::min(tolerance_, kEdgeShare * std::sqrt(length2));
@@ -236,126 +226,10 @@ class OpenEdges {
     PlaceGrid grid_;
 };
 
-/// A face with its new corners, and where they lie in the plane of a triangle.
-struct GrownFace {
-    std::vector<std::uint32_t> vertex;
-    std::vector<std::int32_t> uv;
-    std::vector<glm::dvec2> plane;
-    std::vector<std::uint32_t> origin;
-};
-
-/// The corners of a triangle in its own plane.
-std::array<glm::dvec2, 3> flatten(const PolygonMesh &mesh, std::size_t f) {
-    const std::uint32_t *v = &mesh.corner_position[mesh.face_offset[f]];
-    const glm::dvec3 ab = mesh.position[v[1]] - mesh.position[v[0]];
-    const glm::dvec3 ac = mesh.position[v[2]] - mesh.position[v[0]];
-    const double length = glm::length(ab);
-    if (!(length > 0.0))
-        return {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1)};
-    return {glm::dvec2(0, 0), glm::dvec2(length, 0),
-            glm::dvec2(glm::dot(ac, ab) / length, glm::length(glm::cross(ab, ac)) / length)};
-}
-
-GrownFace grow_face(const Sewn &sewn, std::size_t f, std::span<const Insertion> insertions,
-                    std::vector<glm::dvec2> &uvs) {
-    const PolygonMesh &mesh = sewn.mesh;
-    GrownFace grown;
-    const std::uint32_t first = mesh.face_offset[f];
-    const auto corners = mesh.face_size(f) == 3 ? flatten(mesh, f) : std::array<glm::dvec2, 3>{};
-    for (std::uint32_t c = first; c < mesh.face_offset[f + 1]; ++c) {
-        const std::uint32_t n = mesh.next(f, c);
-        const glm::dvec2 a = corners[(c - first) % 3], b = corners[(n - first) % 3];
-        grown.vertex.push_back(mesh.corner_position[c]);
-        grown.uv.push_back(mesh.corner_uv[c]);
-        grown.plane.push_back(a);
-        grown.origin.push_back(sewn.origin[c]);
-        for (const Insertion &i : insertions) {
-            if (i.corner != c)
-                continue;
-            grown.origin.push_back(i.origin);
-            grown.vertex.push_back(i.vertex);
-            grown.plane.push_back(a + i.t * (b - a));
-            if (mesh.corner_uv[c] < 0 || mesh.corner_uv[n] < 0) {
-                grown.uv.push_back(-1);
-                continue;
-            }
-            const glm::dvec2 s = uvs[static_cast<std::size_t>(mesh.corner_uv[c])];
-            const glm::dvec2 e = uvs[static_cast<std::size_t>(mesh.corner_uv[n])];
-            grown.uv.push_back(static_cast<std::int32_t>(uvs.size()));
-            uvs.push_back((1.0 - i.t) * s + i.t * e);
-        }
-    }
-    return grown;
-}
-
-/// Puts the vertices into their edges. `insertions` are sorted by corner, then t.
-Sewn insert_vertices(const Sewn &sewn, const std::vector<Insertion> &insertions) {
-    const PolygonMesh &mesh = sewn.mesh;
-    Sewn out{
-        .mesh = {}, .origin = {}, .next_origin = sewn.next_origin, .triangles = sewn.triangles};
-    out.mesh.position = mesh.position;
-    out.mesh.uv = mesh.uv;
-    out.mesh.panel_name = mesh.panel_name;
-    std::size_t next = 0;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        const std::size_t first = next;
-        while (next < insertions.size() && insertions[next].corner < mesh.face_offset[f + 1])
-            ++next;
-        const GrownFace grown =
-            grow_face(sewn, f, std::span(insertions).subspan(first, next - first), out.mesh.uv);
-        if (next == first || !sewn.triangles) {
-            out.mesh.add_face(grown.vertex, grown.uv, mesh.face_panel[f]);
-            out.origin.insert(out.origin.end(), grown.origin.begin(), grown.origin.end());
-            continue;
-        }
-        for (const auto &[a, b, c] : split_triangle(grown.plane)) {
-            out.mesh.add_face({grown.vertex[a], grown.vertex[b], grown.vertex[c]},
-                              {grown.uv[a], grown.uv[b], grown.uv[c]}, mesh.face_panel[f]);
-            out.origin.insert(out.origin.end(),
-                              {grown.origin[a], grown.origin[b], grown.origin[c]});
-        }
-    }
-    return out;
-}
-
-/// Where a step laid an edge inside a panel onto another edge (a fold one edge deep), the edge gets
-/// a vertex in its middle, so that the two stay different.
-void halve_coincident_edges(Sewn &sewn) {
-    const PolygonMesh &mesh = sewn.mesh;
-    std::vector<glm::dvec3> middles;
-    std::vector<Insertion> insertions;
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() < 3)
-            return;
-        const auto origin = [&](const EdgeUse &use) {
-            return std::pair(sewn.origin[corner_at(mesh, use, use.low)],
-                             sewn.origin[corner_at(mesh, use, use.high)]);
-        };
-        for (std::size_t i = 0; i < uses.size(); ++i)
-            for (std::size_t j = i + 1; j < uses.size(); ++j) {
-                if (origin(uses[i]) != origin(uses[j]))
-                    continue;
-                const auto middle =
-                    static_cast<std::uint32_t>(mesh.position.size() + middles.size());
-                const glm::dvec3 low = mesh.position[uses[i].low];
-                middles.push_back(low + 0.5 * (mesh.position[uses[i].high] - low));
-                for (const EdgeUse &use : {uses[i], uses[j]})
-                    insertions.push_back({use.corner, 0.5, middle, 0.0, sewn.next_origin});
-                ++sewn.next_origin;
-            }
-    });
-    if (insertions.empty())
-        return;
-    sewn.mesh.position.insert(sewn.mesh.position.end(), middles.begin(), middles.end());
-    std::sort(insertions.begin(), insertions.end(),
-              [](const Insertion &a, const Insertion &b) { return a.corner < b.corner; });
-    sewn = insert_vertices(sewn, insertions);
-    share_equal_uvs(sewn.mesh);
-}
-
 /// One round: every open vertex goes into the nearest open edge that it lies on.
-std::vector<Insertion> find_insertions(const PolygonMesh &mesh, double tolerance) {
-    const OpenEdges open(mesh, tolerance);
+std::vector<Insertion> find_insertions(const PolygonMesh &mesh, double tolerance,
+                                       const VertexSet &allowed) {
+    const OpenEdges open(mesh, tolerance, allowed);
     std::vector<Insertion> insertions;
     for (const std::uint32_t v : ends_of(open.edges()))
         if (const auto insertion = open.nearest(v))
@@ -372,20 +246,10 @@ std::vector<Insertion> find_insertions(const PolygonMesh &mesh, double tolerance
     return insertions;
 }
 
-} // namespace
-
-PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, SeamReport &report) {
-    report.tolerance = options.tolerance;
-    if (options.tolerance < 0.0 || mesh.face_count() == 0) {
-        report.boundary_before = report.boundary_after = ends_of(open_edges(mesh)).size();
-        return mesh;
-    }
-    // Positions that are equal but for rounding count as equal even where the tolerance is 0.
-    constexpr double kRounding = 1e-12;
-    const Box box = bounds(mesh);
-    const double tolerance =
-        std::max(options.tolerance, kRounding * glm::distance(box.lower, box.upper));
-    VertexJoiner joiner(mesh, tolerance);
+/// Joins what lies within the tolerance.
+PolygonMesh sew(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed,
+                SeamReport &report) {
+    VertexJoiner joiner(mesh, tolerance, allowed);
     joiner.join(report);
     Sewn sewn{.mesh = joiner.result(),
               .origin = mesh.corner_position,
@@ -395,7 +259,7 @@ PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, Seam
         sewn.triangles &= mesh.face_size(f) == 3;
     halve_coincident_edges(sewn);
     for (int round = 0; round < kMaxRounds; ++round) {
-        std::vector<Insertion> insertions = find_insertions(sewn.mesh, tolerance);
+        std::vector<Insertion> insertions = find_insertions(sewn.mesh, tolerance, allowed);
         if (insertions.empty())
             break;
         for (Insertion &i : insertions) {
@@ -406,10 +270,74 @@ PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, Seam
         sewn = insert_vertices(sewn, insertions);
         halve_coincident_edges(sewn);
     }
-    const std::vector<EdgeUse> open = open_edges(sewn.mesh);
-    report.boundary_after = ends_of(open).size();
-    report.unresolved = find_insertions(sewn.mesh, tolerance).size();
     return std::move(sewn.mesh);
+}
+
+double distance_to_segment(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b) {
+    const double length2 = glm::dot(b - a, b - a);
+    const double t = length2 > 0.0 ? glm::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0.0;
+    return glm::distance(p, a + t * (b - a));
+}
+
+/// True for a loop as narrow as `width`: all of its vertices but the two tips lie that near to an
+/// edge of the loop that they do not touch.
+bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
+    constexpr std::size_t kTips = 2;
+    const std::size_t n = loop.size();
+    std::size_t wide = 0;
+    for (std::size_t i = 0; i < n && wide <= kTips; ++i) {
+        bool near = false;
+        for (std::size_t k = 1; k + 1 < n && !near; ++k)
+            near = distance_to_segment(loop[i], loop[(i + k) % n], loop[(i + k + 1) % n]) <= width;
+        wide += !near;
+    }
+    return wide <= kTips && wide < n;
+}
+
+/// Vertices of the slits of a manifold mesh; false if there is none.
+bool find_slits(const PolygonMesh &mesh, double width, VertexSet &slits, std::size_t &count) {
+    const HalfEdgeMesh half_edges = make_half_edges(mesh);
+    slits.member.assign(mesh.position.size(), false);
+    const std::size_t before = count;
+    for (const BoundaryRun &run : boundary_runs(half_edges)) {
+        std::vector<glm::dvec3> loop;
+        for (const auto h : run)
+            loop.push_back(
+                mesh.position[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())]);
+        if (!is_slit(loop, width))
+            continue;
+        ++count;
+        for (const auto h : run)
+            slits.member[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())] = true;
+    }
+    return count > before;
+}
+
+} // namespace
+
+PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, SeamReport &report,
+                       ManifoldReport &manifold) {
+    report.tolerance = options.tolerance;
+    report.boundary_before = ends_of(open_edges(mesh, {})).size();
+    PolygonMesh joined = mesh;
+    if (options.tolerance >= 0.0 && mesh.face_count() > 0) {
+        // Positions that are equal but for rounding are equal even where the tolerance is 0.
+        constexpr double kRounding = 1e-12;
+        const Box box = bounds(mesh);
+        const double tolerance =
+            std::max(options.tolerance, kRounding * glm::distance(box.lower, box.upper));
+        joined = make_manifold(sew(mesh, tolerance, {}, report), manifold);
+        for (int pass = 0; pass < kMaxSlitPasses; ++pass) {
+            VertexSet slits;
+            if (options.slit_width <= tolerance ||
+                !find_slits(joined, options.slit_width, slits, report.slits))
+                break;
+            joined = make_manifold(sew(joined, options.slit_width, slits, report), manifold);
+        }
+        report.unresolved = find_insertions(joined, tolerance, {}).size();
+    }
+    report.boundary_after = ends_of(open_edges(joined, {})).size();
+    return joined;
 }
 
 } // namespace tsuya::garment
