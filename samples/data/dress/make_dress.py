@@ -24,7 +24,8 @@ STRAP_ROWS = 30
 SKIRT_ROWS = 54
 SKIRT_LENGTH = 0.975
 SKIRT_SPREAD = 4.0          # radians of the circle that the six gores make together
-PETTICOAT_HEM = 0.26
+PETTICOAT_HEM = 0.235
+TURN = 1.3                  # m/s2 along the hem
 GATHER = 1.08               # skirt top length over waistband length
 CLEARANCE = 0.006           # of the cloth's vertices from the figure
 EASE = 1.018                # bodice pattern over body
@@ -32,7 +33,7 @@ EASE = 1.018                # bodice pattern over body
 DENSITY = 0.14              # kg/m2
 THREAD_STIFFNESS = 1200.0   # N/m along warp and weft
 SHEAR_STIFFNESS = 60.0      # N/m at 45 degrees to them
-BENDING = 3.5e-5            # N m
+BENDING = 2.4e-5            # N m
 
 # name, first and last bodice column, grain (degrees that the pattern is turned on the cloth)
 BODICE_PANELS = [
@@ -373,15 +374,23 @@ def drape(dress, field):
               f"contacts {len(c.pairs)}", flush=True)
 
     def breeze(t, p):
+        """A gust that disorders the folds and dies, over a faint turn that stays and sweeps them."""
         a = np.zeros_like(p)
         low = np.clip((1.0 - p[:, 1]) / 0.9, 0, 1)
-        a[:, 0] = low * (1.6 * np.sin(5.0 * p[:, 2] + 3.0 * t) + 1.2 * np.sin(9 * p[:, 1] + 7 * p[:, 2] + 2 * t))
-        a[:, 2] = low * (1.4 * np.sin(6.0 * p[:, 0] - 2.0 * t + 1.0) - 0.8)
-        return a * max(0.0, 1 - t / 1.4)
+        gust = low * max(0.0, 1 - t / 1.4)
+        a[:, 0] = gust * (1.6 * np.sin(5.0 * p[:, 2] + 3.0 * t) + 1.2 * np.sin(9 * p[:, 1] + 7 * p[:, 2] + 2 * t))
+        a[:, 2] = gust * (1.4 * np.sin(6.0 * p[:, 0] - 2.0 * t + 1.0) - 0.8)
+        reach = np.maximum(np.hypot(p[:, 0], p[:, 2]), 1e-6)
+        a[:, 0] += TURN * low * p[:, 2] / reach
+        a[:, 2] -= TURN * low * p[:, 0] / reach
+        return a
+
+    def turn(t, p):
+        return breeze(10.0, p)
     cloth.run(0.25, 1 / 700, collide, 25.0, None, report)
     cloth.run(1.8, 1 / 700, collide, 1.5, breeze, report)
-    cloth.run(1.6, 1 / 900, collide, 3.0, None, report)
-    cloth.run(0.5, 1 / 1500, collide, 10.0, None, report)
+    cloth.run(1.6, 1 / 900, collide, 3.0, turn, report)
+    cloth.run(0.5, 1 / 1500, collide, 10.0, turn, report)
     return cloth.p
 
 
