@@ -5,8 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include "disk.h"
 #include "tsuya/sdk/great_circle.h"
 
@@ -17,8 +15,7 @@ constexpr float kPi = 3.14159265f;
 constexpr int kTableNodes = 161;     // quadrant; 0.5 degrees at the pole
 constexpr int kFullTableNodes = 241; // whole square
 constexpr int kDensityCells = 96;
-constexpr int kAlbedoNodes = 33;
-constexpr int kAlbedoSamples = 256;
+constexpr int kAlbedoSamples = 1024;
 constexpr float kSmallest = 1e-20f;
 
 // [Takeda] Eq. 5
@@ -44,10 +41,10 @@ struct TakedaBrdf::Terms {
 };
 
 TakedaBrdf::TakedaBrdf(const Bard &bard, double f0)
-    : f0_(static_cast<float>(f0)), half_turn_(bard.symmetry() != Symmetry::none),
-      orthotropic_(bard.symmetry() == Symmetry::orthotropic) {
-    const int nodes = orthotropic_ ? kTableNodes : kFullTableNodes;
-    scaled_ = DiskTable(nodes, orthotropic_, [&](const glm::vec3 &d) {
+    : f0_(static_cast<float>(f0)), half_turn_(bard.symmetry() != Symmetry::none) {
+    const bool orthotropic = bard.symmetry() == Symmetry::orthotropic;
+    const int nodes = orthotropic ? kTableNodes : kFullTableNodes;
+    scaled_ = DiskTable(nodes, orthotropic, [&](const glm::vec3 &d) {
         const float half_cosine = std::sqrt(0.5f * (1 + d.z));
         return static_cast<float>(bard.at(d)) * std::max(d.z, 0.5f) / fresnel(f0_, half_cosine);
     });
@@ -67,10 +64,10 @@ TakedaBrdf::TakedaBrdf(const Bard &bard, double f0)
     for (double &m : mass)
         m += 0.01 * total / static_cast<double>(mass.size());
     density_ = Distribution2D(mass, kDensityCells, kDensityCells);
-    tabulate_albedos();
+    tabulate_albedos(bard.symmetry());
 }
 
-void TakedaBrdf::tabulate_albedos() {
+void TakedaBrdf::tabulate_albedos(Symmetry symmetry) {
     const auto mean_weight = [](const auto &draw) {
         double sum = 0;
         for (int i = 0; i < kAlbedoSamples; ++i)
@@ -78,25 +75,18 @@ void TakedaBrdf::tabulate_albedos() {
                 sum += s->weight;
         return static_cast<float>(sum / kAlbedoSamples);
     };
-    // limit_ has no nodes yet: these are the albedos before the limit
-    const DiskTable unlimited(kAlbedoNodes, orthotropic_, [&](const glm::vec3 &d) {
-        const glm::vec3 to_light = glm::normalize(glm::vec3(d.x, d.y, std::max(d.z, 1e-4f)));
+    // unlimited_albedo_ is 0 still: this is the albedo before the limit
+    light_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_light) {
         return mean_weight([&](const glm::vec3 &u) { return sample_adjoint(to_light, u); });
     });
-    unlimited_albedo_ = unlimited.maximum();
-    light_albedo_ = DiskTable(kAlbedoNodes, orthotropic_,
-                              [&](const glm::vec3 &d) { return std::min(1.0f, unlimited.at(d)); });
-    if (unlimited_albedo_ > 1)
-        limit_ = DiskTable(kAlbedoNodes, orthotropic_,
-                           [&](const glm::vec3 &d) { return 1 / std::max(1.0f, unlimited.at(d)); });
-    view_albedo_ = DiskTable(kAlbedoNodes, orthotropic_, [&](const glm::vec3 &d) {
-        const glm::vec3 to_viewer = glm::normalize(glm::vec3(d.x, d.y, std::max(d.z, 1e-4f)));
+    unlimited_albedo_ = light_albedo_.maximum();
+    view_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_viewer) {
         return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); });
     });
 }
 
 float TakedaBrdf::limit(const glm::vec3 &to_light) const {
-    return limit_.bytes() > 0 ? limit_.at(to_light) : 1.0f;
+    return unlimited_albedo_ > 1 ? 1 / std::max(1.0f, light_albedo_.at(to_light)) : 1.0f;
 }
 
 TakedaBrdf::Terms TakedaBrdf::terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
@@ -200,7 +190,7 @@ std::optional<SampledDirection> TakedaBrdf::sample_adjoint(const glm::vec3 &to_l
 }
 
 float TakedaBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? light_albedo_.at(to_light) : 0.0f;
+    return to_light.z > 0 ? std::min(1.0f, light_albedo_.at(to_light)) : 0.0f;
 }
 
 float TakedaBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {

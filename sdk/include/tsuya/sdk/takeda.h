@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/albedo_table.h"
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/disk_table.h"
 #include "tsuya/sdk/distribution.h"
@@ -42,21 +43,19 @@ class TakedaBrdf {
     struct Terms;
     Terms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float limit(const glm::vec3 &to_light) const;
-    void tabulate_albedos();
+    void tabulate_albedos(Symmetry symmetry);
     std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
     float density_of_basic(const glm::vec3 &basic) const;
     float density_of_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float density_of_light(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
 
     float f0_ = 0.05f;
-    bool half_turn_ = true; ///< rho0 repeats after half a turn: the even proposal can be used
-    bool orthotropic_ = true;
-    DiskTable scaled_{};       ///< rho0(V0) max(cos theta0, 1/2) / F(cos(theta0/2))
-    Distribution2D density_{}; ///< proportional to rho0 cos theta0, on the square of the disk
-    DiskTable light_albedo_{}; ///< limited to 1
-    DiskTable view_albedo_{};
-    DiskTable limit_{}; ///< 1 / max(1, albedo of light)
-    float unlimited_albedo_ = 0;
+    bool half_turn_ = true;      ///< rho0 repeats after half a turn: the even proposal can be used
+    DiskTable scaled_{};         ///< rho0(V0) max(cos theta0, 1/2) / F(cos(theta0/2))
+    Distribution2D density_{};   ///< proportional to rho0 cos theta0, on the square of the disk
+    AlbedoTable light_albedo_{}; ///< before the limit
+    AlbedoTable view_albedo_{};
+    float unlimited_albedo_ = 0; ///< 0 while there is no table of it
 };
 
 } // namespace tsuya

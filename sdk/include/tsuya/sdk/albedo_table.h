@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// An albedo as a function of direction: smooth over most of the hemisphere, steep at grazing.
+
+#include <functional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "tsuya/sdk/reflectance_table.h"
+
+namespace tsuya {
+
+/// Bilinear table over sqrt(cos theta), in which albedos are nearly straight down to the horizon,
+/// and azimuth. Only the azimuths that the symmetry leaves are held.
+class AlbedoTable {
+  public:
+    AlbedoTable() = default;
+    /// \param function called at unit directions with z > 0, from several threads
+    AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function);
+    /// \param direction unit, z >= 0
+    float at(const glm::vec3 &direction) const;
+    float maximum() const;
+
+  private:
+    Symmetry symmetry_ = Symmetry::orthotropic;
+    int columns_ = 0;
+    std::vector<float> value_{}; ///< [row from the horizon to the pole][azimuth], ends included
+};
+
+} // namespace tsuya

@@ -1,0 +1,70 @@
+#include "tsuya/sdk/albedo_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace tsuya {
+namespace {
+
+constexpr int kRows = 33;            // over sqrt(cos theta): 0.06 degrees at the horizon
+constexpr int kColumnsOfQuarter = 8; // 11 degrees
+constexpr float kLowest = 1e-4f;     // cosine that stands for the horizon itself
+
+// Azimuth without trigonometry: |x| + |y| = 1 walked from the weft axis, 1 a quarter, in [0, 4].
+float quarters(const glm::vec3 &d) {
+    const float sum = std::abs(d.x) + std::abs(d.y);
+    if (!(sum > 0))
+        return 0;
+    const float t = std::abs(d.y) / sum;
+    if (d.x >= 0)
+        return d.y >= 0 ? t : 4 - t;
+    return d.y >= 0 ? 2 - t : 2 + t;
+}
+
+glm::vec3 direction_of(float quarter, float root_cosine) {
+    const int whole = static_cast<int>(quarter);
+    const float t = quarter - static_cast<float>(whole);
+    const glm::vec2 axes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const glm::vec2 p = glm::normalize((1 - t) * axes[whole % 4] + t * axes[(whole + 1) % 4]);
+    const float z = std::max(root_cosine * root_cosine, kLowest);
+    return {p * std::sqrt(std::max(0.0f, 1 - z * z)), z};
+}
+
+// How many quarters differ from each other.
+int held_quarters(Symmetry symmetry) {
+    return symmetry == Symmetry::orthotropic ? 1 : symmetry == Symmetry::half_turn ? 2 : 4;
+}
+
+} // namespace
+
+AlbedoTable::AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function)
+    : symmetry_(symmetry), columns_(held_quarters(symmetry) * kColumnsOfQuarter + 1),
+      value_(static_cast<std::size_t>(kRows * columns_)) {
+    tbb::parallel_for(0, kRows, [&](int j) {
+        for (int i = 0; i < columns_; ++i)
+            value_[static_cast<std::size_t>(j * columns_ + i)] = function(direction_of(
+                static_cast<float>(i) / kColumnsOfQuarter, static_cast<float>(j) / (kRows - 1)));
+    });
+}
+
+float AlbedoTable::at(const glm::vec3 &direction) const {
+    float q = quarters(direction);
+    if (symmetry_ == Symmetry::orthotropic)
+        q = std::abs(direction.y) / std::max(std::abs(direction.x) + std::abs(direction.y), 1e-30f);
+    else if (symmetry_ == Symmetry::half_turn && q >= 2)
+        q -= 2;
+    const float x = q * kColumnsOfQuarter;
+    const float y = std::sqrt(glm::clamp(direction.z, 0.0f, 1.0f)) * (kRows - 1);
+    const int i = std::min(static_cast<int>(x), columns_ - 2);
+    const int j = std::min(static_cast<int>(y), kRows - 2);
+    const float s = std::min(x - static_cast<float>(i), 1.0f), t = y - static_cast<float>(j);
+    const float *const row = &value_[static_cast<std::size_t>(j * columns_ + i)];
+    const float *const next = row + columns_;
+    return (1 - t) * ((1 - s) * row[0] + s * row[1]) + t * ((1 - s) * next[0] + s * next[1]);
+}
+
+float AlbedoTable::maximum() const { return *std::max_element(value_.begin(), value_.end()); }
+
+} // namespace tsuya

@@ -1,0 +1,85 @@
+#include "tsuya/sdk/brdf.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "sdk/brdf_checks.h"
+#include "sdk/synthetic_table.h"
+
+namespace tsuya::test {
+namespace {
+
+constexpr std::uint64_t kSeed = 20240917;
+
+// TSUYA_TEST_EFFORT multiplies the draws: ctest runs this program a second time with more of them.
+int effort() {
+    const char *text = std::getenv("TSUYA_TEST_EFFORT");
+    return text ? std::max(1, std::atoi(text)) : 1;
+}
+
+struct Instance {
+    std::string name;
+    std::function<Brdf()> make;
+    // How well the tables of albedos must agree with quadrature; the view's at grazing are worse
+    double light_tolerance = 0.02, view_tolerance = 0.05;
+};
+
+Instance takeda(const char *name, Cloth (*cloth)(), double f0, double light_tolerance = 0.02) {
+    return {name, [=] { return Brdf(TakedaBrdf(bard_of(cloth()), f0)); }, light_tolerance};
+}
+
+std::vector<Instance> instances() {
+    return {{"Lambert", [] { return Brdf(LambertBrdf()); }, 1e-3, 1e-3},
+            takeda("TakedaSatin", satin_cloth, 0.05),
+            takeda("TakedaIsotropic", isotropic_cloth, 0.3),
+            takeda("TakedaNarrow", narrow_cloth, 0.9),
+            takeda("TakedaTwisted", twisted_cloth, 0.05),
+            // Without the half turn the weights of grazing lights vary, and the tables with them
+            takeda("TakedaLeaning", leaning_cloth, 0.05, 0.05)};
+}
+
+class BrdfContract : public testing::TestWithParam<Instance> {
+  protected:
+    // Every test of a model uses one copy of it: the tables are long in the making
+    const AnyBrdf &brdf() const {
+        static std::map<std::string, AnyBrdf> made;
+        const auto found = made.find(GetParam().name);
+        if (found != made.end())
+            return found->second;
+        const Brdf model = GetParam().make();
+        return made[GetParam().name] = std::visit([](const auto &m) { return any_brdf(m); }, model);
+    }
+};
+
+void expect(const Check &check) {
+    EXPECT_TRUE(check.passed) << check.worst << " at " << check.where;
+}
+
+TEST_P(BrdfContract, ValuesAreFiniteAndNotNegative) { expect(check_values(brdf())); }
+TEST_P(BrdfContract, NothingBelowTheHorizon) { expect(check_horizon(brdf())); }
+TEST_P(BrdfContract, WeightsAreValueOverDensity) { expect(check_weights(brdf())); }
+TEST_P(BrdfContract, ReciprocityIsAsDeclared) { expect(check_reciprocity(brdf())); }
+TEST_P(BrdfContract, EnergyIsLimitedAndTold) {
+    const Energy energy = check_energy(brdf(), GetParam().light_tolerance, 30000 * effort());
+    expect(energy.limit);
+    expect(energy.albedo);
+}
+
+TEST_P(BrdfContract, AlbedoOfView) {
+    expect(check_albedo_of_view(brdf(), GetParam().view_tolerance, 30000 * effort()));
+}
+
+TEST_P(BrdfContract, DrawsFollowTheirDensity) {
+    std::cout << "seed " << kSeed << "\n";
+    const Check check = check_draws(brdf(), 20000 * effort(), kSeed);
+    EXPECT_TRUE(check.passed) << check.where;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BrdfContract, testing::ValuesIn(instances()),
+                         [](const auto &tested) { return tested.param.name; });
+
+} // namespace
+} // namespace tsuya::test
