@@ -13,7 +13,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from body import DistanceField, Figure, mannequin  # noqa: E402
-from cloth import Cloth, colour  # noqa: E402
+from cloth import Cloth  # noqa: E402
 
 # ---- the design -----------------------------------------------------------------------------------------------------
 
