@@ -12,7 +12,7 @@
 namespace tsuya {
 namespace {
 
-constexpr const char *kIncandescent = "incandescent, Planck's radiator of 2856 K";
+constexpr const char *kIncandescent = "incandescent, 2856 K";
 constexpr const char *kEqualEnergy = "equal energy at every wavelength";
 
 // [CIE015] section 4.1.2, Eq. 4.1: 2848 K with c2 = 1.435e-2 m K as the CIE defined it in 1931,

@@ -29,8 +29,8 @@ Colors colors_of(SheetTheme theme) {
 struct Layout {
     int columns = 1, rows = 1;
     int width = 0, height = 0; ///< of a picture
-    int margin = 0, font = 0;  ///< of captions and labels
-    int title_font = 0;
+    int margin = 0;
+    int font = 0, title_font = 0, caption_font = 0; ///< sizes of letters
     int label_width = 0, caption_height = 0, title_height = 0;
 
     int left(int column) const { return margin + label_width + column * (width + margin); }
@@ -126,6 +126,10 @@ Layout make_layout(const Sheet &sheet, const std::string &font) {
     const bool captions = std::any_of(sheet.pictures.begin(), sheet.pictures.end(),
                                       [](const auto &p) { return !p.caption.empty(); });
     layout.caption_height = captions ? layout.font * 2 : 0;
+    layout.caption_font = layout.font;
+    for (const SheetPicture &picture : sheet.pictures) // one size for all: the longest must fit
+        layout.caption_font =
+            fitting_size(picture.caption, layout.caption_font, layout.width, font);
     layout.title_height = sheet.title.empty() ? 0 : layout.title_font * 2;
     for (const std::string &label : sheet.row_labels)
         layout.label_width =
@@ -202,7 +206,7 @@ Image draw_sheet(const Sheet &sheet) {
         const int left = layout.left(column), top = layout.top(row);
         paste(sheet.pictures[i].image, left, top, out);
         pen.write(sheet.pictures[i].caption, left, top + layout.height, layout.width,
-                  layout.caption_height, layout.font, Pen::Align::centre);
+                  layout.caption_height, layout.caption_font, Pen::Align::centre);
     }
     return out;
 }

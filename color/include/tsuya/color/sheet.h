@@ -12,7 +12,7 @@ namespace tsuya {
 
 struct SheetPicture {
     Image image{};         ///< display-encoded R, G, B, as `display` makes it
-    std::string caption{}; ///< under the picture; UTF-8; shrunk where it is wider than the picture
+    std::string caption{}; ///< under the picture; UTF-8; all shrink until the longest fits
 };
 
 enum class SheetTheme { light, dark };
