@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// From light transport to pictures under lamps, and to a sheet of them.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tsuya/color/compare.h"
+#include "tsuya/color/config.h"
+#include "tsuya/sdk/image.h"
+#include "tsuya/sdk/spectral_image.h"
+
+namespace tsuya::scene {
+
+/// How pictures look by default: colours as seen beside daylight, highlights rolled off.
+inline DisplayOptions default_look() { return {.adapt = Adaptation::none, .view = "Soft"}; }
+
+/// Display-encoded R, G, B of the transport under one lamp for all light groups, or one for each.
+/// Where the look adapts, the eye is used to the lamp of the first group. Throws Error as relight
+/// and display.
+Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
+                    const DisplayOptions &look = default_look());
+
+/// Lamps as programs name them, such as `D65` or `my/lamp.csv`. A lamp of a file is called by the
+/// file's name without the extension. Throws Error as parse_lamp, and for a name used twice or
+/// none.
+std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
+                                   const std::filesystem::path &folder = {});
+
+/// The lamp of each light group of `groups`, from specs that are either `LAMP`, for every group
+/// that is not named, or `GROUP=LAMP`. Throws Error for an unknown group, with the known ones, a
+/// group without a lamp, two lamps for one group, and as parse_lamp.
+std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
+                                         std::span<const std::string> groups,
+                                         const std::filesystem::path &folder = {});
+
+/// What to write under a picture: the lamp's name, and for a named lamp its correlated colour
+/// temperature in words.
+std::string caption_of(const NamedLamp &lamp);
+
+/// The part of a file name that stands for a dye or lamp: `crimson`; `x` of `my/x.csv`; `aabbcc` of
+/// `#aabbcc`.
+std::string file_stem_of(const std::string &spec);
+
+} // namespace tsuya::scene

@@ -1,0 +1,73 @@
+#pragma once
+/// \file
+/// The main job: a garment in a fabric, in a studio, dyed and lit in several ways.
+///
+///     TryOn job = tsuya::scene::sample_try_on(tsuya::scene::data_folder());
+///     job.output = "out";
+///     for (const auto &file : tsuya::scene::run(job).files) ...
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tsuya/color/config.h"
+#include "tsuya/garment/report.h"
+#include "tsuya/scene/picture.h"
+#include "tsuya/sdk/progress.h"
+#include "tsuya/sdk/render.h"
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya::scene {
+
+/// Samples per pixel of a try-on unless one is asked for.
+inline constexpr int kTryOnSamples = 64;
+
+/// What is tried on and how it is shown.
+struct TryOn {
+    std::filesystem::path garment{}; ///< a mesh with the UV of its panels
+    std::filesystem::path body{};    ///< a mesh; empty: none
+    std::filesystem::path fabric{};  ///< F.fabric.toml
+    std::string unit = "m";          ///< of garment and body, see garment::metres_per
+    int level = 1;                   ///< of subdivision, 0 to 8
+    /// One render and one row of the sheet each, see parse_dye. Empty: the fabric's own dye.
+    std::vector<std::string> dyes{"white", "crimson"};
+    std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_lamps
+    double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
+    int width = 800;
+    int height = 1000;
+    RenderSettings render{.stop = {.samples_per_pixel = kTryOnSamples}};
+    DisplayOptions look = default_look();
+    std::filesystem::path output{}; ///< a folder; made where it is missing
+};
+
+/// The sample dress on its mannequin in the sample satin. `output` is left to the caller. Throws
+/// Error as find_fabric.
+TryOn sample_try_on(const std::filesystem::path &data);
+
+/// A scene with what is found about its garment.
+struct TryOnScene {
+    Scene scene{};
+    garment::Report report{};
+};
+
+/// The studio of a try-on with the fabric's own dye: the camera in front frames the garment, a
+/// softbox from the left of the picture is the light group `key`, a weak even light from everywhere
+/// is the group `fill`. Everything scales with the garment. The garment's fabric is the first.
+/// Throws Error for files that cannot be read, and Interrupted.
+TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
+
+/// What a try-on made.
+struct TryOnResult {
+    std::vector<std::filesystem::path> files{}; ///< in the order of their making
+    std::vector<RenderStats> stats{};           ///< one a render
+    garment::Report report{};
+    bool interrupted = false;
+};
+
+/// Renders once for each dye, and writes into the output folder `DYE.exr` (light transport, with
+/// the picture `coverage` of the garment), `DYE-LAMP.png` for each lamp, and `sheet.png`. Where
+/// progress.stop becomes true, what is done is still written, without the sheet. Throws Error with
+/// nothing written for any wrong value of the job.
+TryOnResult run(const TryOn &job, const Progress &progress = {});
+
+} // namespace tsuya::scene

@@ -1,0 +1,98 @@
+#include "console.h"
+
+#include <algorithm>
+#include <atomic>
+#include <iostream>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tsuya::program {
+namespace {
+
+std::atomic<bool> stop{false}; // a signal handler can only reach something global
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+constexpr int kBarWidth = 40;
+constexpr int kPlainStep = 10; // percent between lines
+
+} // namespace
+
+ProgressMode parse_progress_mode(const std::string &name) {
+    if (name == "auto")
+        return isatty(STDERR_FILENO) != 0 ? ProgressMode::bar : ProgressMode::off;
+    if (name == "plain")
+        return ProgressMode::plain;
+    return name == "json" ? ProgressMode::json : ProgressMode::off;
+}
+
+void watch_signals() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { stop = true; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+Progress Console::progress() {
+    Progress progress{.stop = &stop};
+    if (mode_ != ProgressMode::off)
+        progress.report = [this](std::string_view stage, double fraction) {
+            report(stage, fraction);
+        };
+    return progress;
+}
+
+void Console::report(std::string_view stage, double fraction) {
+    const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
+    if (stage == stage_ && percent == told_percent_)
+        return;
+    const bool new_step = stage != stage_ || percent / kPlainStep != told_percent_ / kPlainStep;
+    stage_ = stage;
+    told_percent_ = percent;
+    if (mode_ == ProgressMode::json) {
+        const nlohmann::ordered_json line{{"schema", "tsuya-progress 1"},
+                                          {"stage", stage_},
+                                          {"fraction", std::clamp(fraction, 0.0, 1.0)}};
+        std::cerr << line.dump() + "\n";
+    } else if (mode_ == ProgressMode::plain) {
+        if (new_step)
+            std::cerr << stage_ + " " + std::to_string(percent) + " %\n";
+    } else {
+        const auto full = static_cast<std::size_t>(percent * kBarWidth / 100);
+        std::cerr << "\r\033[K[" + std::string(full, '#') + std::string(kBarWidth - full, ' ') +
+                         "] " + std::to_string(percent) + " % " + stage_
+                  << std::flush;
+        line_open_ = true;
+    }
+}
+
+void Console::end_line() {
+    if (line_open_)
+        std::cerr << "\n";
+    line_open_ = false;
+}
+
+void Console::error(std::string_view text) {
+    end_line();
+    std::cerr << "tsuya: " << text << "\n";
+}
+
+void Console::error(const Problem &problem) {
+    error((problem.where.empty() ? "" : problem.where + ": ") + problem.what +
+          (problem.accepted.empty() ? "" : "; " + problem.accepted));
+}
+
+void Console::warning(std::string_view text) { error("warning: " + std::string(text)); }
+
+void Console::warnings(const garment::Report &report, const std::string &file) {
+    for (const garment::Finding &finding : report.findings)
+        if (finding.severity == garment::Severity::warning)
+            warning(file + ": " + finding.what +
+                    (finding.where.empty() ? "" : " (" + finding.where + ")") + "; " +
+                    finding.action);
+}
+
+} // namespace tsuya::program

@@ -1,0 +1,46 @@
+#pragma once
+// What the program says while it works: progress and warnings, all on stderr.
+
+#include <string>
+#include <string_view>
+
+#include "tsuya/garment/report.h"
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/progress.h"
+
+namespace tsuya::program {
+
+/// How progress is told: a bar that rewrites its line, lines of text, lines of JSON, not at all.
+enum class ProgressMode { bar, plain, json, off };
+
+/// `auto` (a bar where stderr is a terminal, else off), `plain`, `json`, `off`.
+ProgressMode parse_progress_mode(const std::string &name);
+
+/// Sets the flag that `Console::progress` hands out when SIGINT or SIGTERM arrives; a second one
+/// ends the process.
+void watch_signals();
+
+class Console {
+  public:
+    void set_mode(ProgressMode mode) { mode_ = mode; }
+    /// Progress that is told on stderr and stopped by signals. The console must outlive it.
+    Progress progress();
+
+    void error(const Problem &problem);
+    void error(std::string_view text);
+    void warning(std::string_view text);
+    /// The findings that may show in the picture.
+    void warnings(const garment::Report &report, const std::string &file);
+    /// Ends a line that a bar has begun.
+    void end_line();
+
+  private:
+    void report(std::string_view stage, double fraction);
+
+    ProgressMode mode_ = ProgressMode::off;
+    std::string stage_{};
+    int told_percent_ = -1;
+    bool line_open_ = false;
+};
+
+} // namespace tsuya::program

@@ -1,0 +1,105 @@
+// tsuya tryon: the main job without a scene file.
+
+#include <iostream>
+
+#include "command.h"
+#include "look_options.h"
+#include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/tryon.h"
+
+namespace tsuya::program {
+namespace {
+
+class TryOnCommand final : public Command {
+  public:
+    explicit TryOnCommand(CLI::App &program)
+        : app_(*program.add_subcommand("tryon", "Show a garment in a fabric, dyed and lit")) {
+        app_.footer("Example:\n  tsuya tryon --garment dress.obj --fabric black_satin --dye "
+                    "white,indigo --lamps D65,A -o out\n"
+                    "Without a garment: the sample dress on its mannequin.");
+        CLI::Option *garment = app_.add_option("--garment", garment_, "Mesh (OBJ) with panel UVs");
+        app_.add_option("--body", job_.body, "Mesh (OBJ) that wears it")->needs(garment);
+        app_.add_option("--fabric", fabric_, "F.fabric.toml, or a name of `tsuya list fabrics`")
+            ->capture_default_str();
+        app_.add_option("--dye", job_.dyes, "Names of `tsuya list dyes`, #rrggbb, F.csv")
+            ->delimiter(',')
+            ->capture_default_str();
+        app_.add_option("--lamps", job_.lamps, "Names of `tsuya list lamps`, or F.csv")
+            ->delimiter(',')
+            ->capture_default_str();
+        app_.add_option("-o,--output", job_.output, "Folder for the results")->required();
+        app_.add_option("--unit", job_.unit, "Of the meshes: m, dm, cm, mm, in")
+            ->capture_default_str();
+        app_.add_option("--level", job_.level, "Of subdivision")
+            ->check(CLI::Range(0, 8))
+            ->capture_default_str();
+        app_.add_option("--azimuth", job_.azimuth_deg, "Of the camera, degrees; 0 sees the front")
+            ->check(CLI::Range(-360.0, 360.0))
+            ->capture_default_str();
+        add_quality();
+        look_.add_to(app_);
+        app_.add_option("--data", data_, "Folder of the sample data");
+    }
+
+    bool called() const override { return app_.parsed(); }
+
+    Status run(Console &console) override {
+        const std::filesystem::path data = data_folder();
+        if (garment_.empty()) {
+            const scene::TryOn sample = scene::sample_try_on(data);
+            job_.garment = sample.garment;
+            job_.body = sample.body;
+        } else {
+            job_.garment = garment_;
+        }
+        job_.fabric = scene::find_fabric(fabric_, data);
+        job_.look = look_.look();
+        const scene::TryOnResult result = scene::run(job_, console.progress());
+        console.warnings(result.report, job_.garment.string());
+        for (const std::filesystem::path &file : result.files)
+            std::cout << file.string() << "\n";
+        if (!result.interrupted)
+            return kDone;
+        console.error("interrupted; the pictures so far are written");
+        return kInterrupted;
+    }
+
+  private:
+    void add_quality() {
+        app_.add_option("--width", job_.width, "Pixels")
+            ->check(CLI::Range(1, 32768))
+            ->capture_default_str();
+        app_.add_option("--height", job_.height, "Pixels")
+            ->check(CLI::Range(1, 32768))
+            ->capture_default_str();
+        app_.add_option("--spp,--samples", job_.render.stop.samples_per_pixel, "Samples per pixel")
+            ->check(CLI::Range(1, 65536))
+            ->capture_default_str();
+        app_.add_option("--channels", job_.render.channels, "Spectral channels")
+            ->check(CLI::IsMember({8, 16, 32}))
+            ->capture_default_str();
+        app_.add_option("--threads", job_.render.threads, "0: all")
+            ->check(CLI::Range(0, 4096))
+            ->capture_default_str();
+        app_.add_option("--seed", job_.render.seed, "Of the noise")->capture_default_str();
+    }
+    /// The sample data is needed by names and the sample dress only.
+    std::filesystem::path data_folder() const {
+        const bool named = garment_.empty() || !fabric_.ends_with(".toml");
+        return named ? scene::data_folder(data_) : std::filesystem::path{};
+    }
+
+    CLI::App &app_;
+    scene::TryOn job_{};
+    std::filesystem::path garment_{}, data_{};
+    std::string fabric_ = "black_satin";
+    LookOptions look_{};
+};
+
+} // namespace
+
+std::unique_ptr<Command> make_tryon(CLI::App &program) {
+    return std::make_unique<TryOnCommand>(program);
+}
+
+} // namespace tsuya::program
