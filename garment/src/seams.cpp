@@ -18,7 +18,7 @@ constexpr double kEdgeShare = 0.45;
 /// A vertex is put into an edge only this far from its ends, as a share of the edge, and farther
 /// than the tolerance or the second share: a vertex nearer to an end is that end's affair.
 constexpr double kInnerShare = 0.02;
-constexpr double kEndShare = 0.2;
+constexpr double kEndShare = 0.1;
 /// Rounds of T-junctions; each can uncover others on the edges that it made.
 constexpr int kMaxRounds = 8;
 /// Passes over slits; closing one can leave a shorter one.
@@ -298,7 +298,6 @@ bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
 bool find_slits(const PolygonMesh &mesh, double width, VertexSet &slits, std::size_t &count) {
     const HalfEdgeMesh half_edges = make_half_edges(mesh);
     slits.member.assign(mesh.position.size(), false);
-    const std::size_t before = count;
     for (const BoundaryRun &run : boundary_runs(half_edges)) {
         std::vector<glm::dvec3> loop;
         for (const auto h : run)
@@ -310,7 +309,7 @@ bool find_slits(const PolygonMesh &mesh, double width, VertexSet &slits, std::si
         for (const auto h : run)
             slits.member[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())] = true;
     }
-    return count > before;
+    return count > 0;
 }
 
 } // namespace
@@ -329,12 +328,20 @@ PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, Seam
         joined = make_manifold(sew(mesh, tolerance, {}, report), manifold);
         for (int pass = 0; pass < kMaxSlitPasses; ++pass) {
             VertexSet slits;
+            std::size_t found = 0;
             if (options.slit_width <= tolerance ||
-                !find_slits(joined, options.slit_width, slits, report.slits))
+                !find_slits(joined, options.slit_width, slits, found))
                 break;
+            report.slits += found;
             joined = make_manifold(sew(joined, options.slit_width, slits, report), manifold);
         }
-        report.unresolved = find_insertions(joined, tolerance, {}).size();
+        VertexSet left;
+        std::size_t slits_left = 0;
+        if (options.slit_width > tolerance)
+            find_slits(joined, options.slit_width, left, slits_left);
+        report.unresolved = std::max<std::size_t>(
+            find_insertions(joined, tolerance, {}).size(),
+            static_cast<std::size_t>(std::count(left.member.begin(), left.member.end(), true)));
     }
     report.boundary_after = ends_of(open_edges(joined, {})).size();
     return joined;

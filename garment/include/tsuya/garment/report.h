@@ -47,8 +47,8 @@ struct SeamReport {
     std::size_t splits = 0;          ///< vertices put into a neighbour's edge (T-junctions)
     std::size_t slits = 0;           ///< narrow gaps that were closed beyond the tolerance
     double largest_gap = 0;          ///< metres; largest distance that was closed
-    std::size_t unresolved = 0;      ///< boundary vertices left that lie within tolerance of
-                                     ///< another part of the boundary
+    std::size_t unresolved = 0; ///< boundary vertices left that lie on another boundary edge or
+                                ///< in a slit that could not be closed
 };
 
 /// What make_manifold did.

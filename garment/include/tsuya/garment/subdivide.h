@@ -45,7 +45,7 @@ struct LimitMesh {
 /// UVs are face-varying: smooth inside a panel, linear along its boundary.
 /// \param mesh manifold (see make_manifold)
 /// Throws Error for a level out of range, the Loop scheme with faces that are not triangles, or a
-/// vertex or face of more neighbours than OpenSubdiv allows (511).
+/// vertex or face of 256 neighbours or more.
 LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options = {},
                     const Progress &progress = {});
 

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include "test_meshes.h"
+#include "tsuya/garment/obj.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::garment {
+namespace {
+
+std::vector<std::string> places(const std::string &text) {
+    try {
+        parse_obj(text, "m.obj");
+    } catch (const Error &error) {
+        std::vector<std::string> where;
+        for (const Problem &p : error.problems())
+            where.push_back(p.where);
+        return where;
+    }
+    return {"no error"};
+}
+
+const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST(Obj, ReadsPolygonsOfAnySizeWithAndWithoutUv) {
+    const PolygonMesh m =
+        parse_obj(kThree + "v 1 1 0\nv 2 2 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                           "f 1/1 2/2 3/3\nf 1 2 4 3\nf 1//1 2//1 4//1 5//1 3//1\n",
+                  "m.obj");
+    ASSERT_EQ(m.face_count(), 3u);
+    EXPECT_EQ(m.face_size(2), 5u);
+    EXPECT_EQ(m.corner_uv[2], 2);
+    EXPECT_EQ(m.corner_uv[3], -1);
+    EXPECT_TRUE(m.panel_name.empty());
+}
+
+TEST(Obj, ReadsNegativeIndicesContinuationsCrlfAndUnknownLines) {
+    const PolygonMesh m = parse_obj(
+        "# head\r\nmtllib a.mtl\r\nv 1e0 +2 .5 0.3\r\nv 0 0 \\\r\n 0 1 0 0\r\nbare text\r\n"
+        "v 1 0 0 # a comment\r\nvt 0.5\r\nf -3/-1 \\\r\n 2/1/7 -1/1\r\n",
+        "m.obj");
+    ASSERT_EQ(m.face_count(), 1u);
+    EXPECT_EQ(m.position[0], glm::dvec3(1, 2, 0.5));
+    EXPECT_EQ(m.corner_position, (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_EQ(m.uv[0], glm::dvec2(0.5, 0));
+}
+
+TEST(Obj, PrefersGroupsThenObjectsThenMaterialsAsPanels) {
+    const std::string faces = "g left\nf 1 2 3\ng right\nf 1 3 2\n";
+    EXPECT_EQ(parse_obj(kThree + "o dress\nusemtl silk\n" + faces, "m").panel_name,
+              (std::vector<std::string>{"left", "right"}));
+    // One group for all tells nothing apart, the materials do.
+    EXPECT_EQ(parse_obj(kThree + "g all\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n", "m").panel_name,
+              (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(parse_obj(kThree + "o dress\nf 1 2 3\n", "m").panel_name,
+              (std::vector<std::string>{"dress"}));
+}
+
+TEST(Obj, SharesEqualUvsOfOneVertex) {
+    const PolygonMesh m =
+        parse_obj(kThree + "v 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 0 1\nvt 1 1\n"
+                           "f 1/1 2/2 3/3\nf 2/4 4/6 3/5\n",
+                  "m.obj");
+    EXPECT_EQ(m.corner_uv, (std::vector<std::int32_t>{0, 1, 2, 1, 5, 2}));
+}
+
+TEST(Obj, BadInputNamesLineAndColumn) {
+    EXPECT_EQ(places("v 0 0 0\nv nan 0 0\n"), (std::vector<std::string>{"m.obj:2:3"}));
+    EXPECT_EQ(places("v 0 -inf 0\n"), (std::vector<std::string>{"m.obj:1:5"}));
+    EXPECT_EQ(places("v 0 1e999 0\n"), (std::vector<std::string>{"m.obj:1:5"}));
+    EXPECT_EQ(places("v 0 1.#IND 0\n"), (std::vector<std::string>{"m.obj:1:5"}));
+    EXPECT_EQ(places("v 0 0\n"), (std::vector<std::string>{"m.obj:1:6"}));
+    EXPECT_EQ(places("vt x 0\n"), (std::vector<std::string>{"m.obj:1:4"}));
+    EXPECT_EQ(places(kThree + "f 1 2 0\n"), (std::vector<std::string>{"m.obj:4:7"}));
+    EXPECT_EQ(places(kThree + "f 1 2 4\n"), (std::vector<std::string>{"m.obj:4:7"}));
+    EXPECT_EQ(places(kThree + "f 1 2 -4\n"), (std::vector<std::string>{"m.obj:4:7"}));
+    EXPECT_EQ(places(kThree + "f 1 2/1 3\n"), (std::vector<std::string>{"m.obj:4:7"}));
+    EXPECT_EQ(places(kThree + "  f 1 2\n"), (std::vector<std::string>{"m.obj:4:3"}));
+    EXPECT_EQ(places(kThree + "f 1 2 3x\n"), (std::vector<std::string>{"m.obj:4:8"}));
+    EXPECT_EQ(places(kThree + "f 1 2 99999999999999999999\n"),
+              (std::vector<std::string>{"m.obj:4:7"}));
+    EXPECT_EQ(places("v 1 2 3\nf \\\n1 1 9\n"), (std::vector<std::string>{"m.obj:3:5"}));
+    EXPECT_EQ(places(kThree), (std::vector<std::string>{"m.obj"}));
+    EXPECT_EQ(places(""), (std::vector<std::string>{"m.obj"}));
+}
+
+TEST(Obj, CollectsUpToTwentyProblems) {
+    EXPECT_EQ(places("v a 0 0\nv 0 b 0\nv 0 0 c\n").size(), 3u);
+    std::string many;
+    for (int i = 0; i < 50; ++i)
+        many += "v x 0 0\n";
+    EXPECT_EQ(places(many).size(), kMaxProblems);
+}
+
+TEST(Obj, MissingFileIsAnError) {
+    try {
+        read_obj("/nonexistent/m.obj");
+        FAIL();
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems().at(0).where, "/nonexistent/m.obj");
+    }
+}
+
+TEST(Obj, WritesWhatItReadsBack) {
+    Surface s;
+    s.position = {{0, 0, 0.1}, {1, 0, 0}, {0, 1.0 / 3.0, 0}};
+    s.normal.assign(3, glm::vec3(0, 0, 1));
+    s.uv = {{0, 0}, {1, 0}, {0, 0.1f}};
+    s.triangle = {{0, 1, 2}};
+    s.panel = {0};
+    s.panel_name = {"front"};
+    const auto path = std::filesystem::path(testing::TempDir()) / "written.obj";
+    write_obj(path, s);
+    const PolygonMesh m = read_obj(path);
+    EXPECT_EQ(m.position, s.position);
+    EXPECT_EQ(m.panel_name, s.panel_name);
+    ASSERT_EQ(m.uv.size(), 3u);
+    EXPECT_EQ(glm::vec2(m.uv[2]), s.uv[2]);
+    std::filesystem::remove(path);
+    EXPECT_THROW(write_obj("/nonexistent/folder/m.obj", s), Error);
+}
+
+TEST(PolygonMesh, BadIndicesAreErrors) {
+    PolygonMesh m = test::cube();
+    check_indices(m, "cube");
+    m.corner_position[3] = 8;
+    EXPECT_THROW(check_indices(m, "cube"), Error);
+    m = test::cube();
+    m.corner_uv[3] = 0;
+    EXPECT_THROW(check_indices(m, "cube"), Error);
+    m = test::cube();
+    m.position[2].y = std::nan("");
+    EXPECT_THROW(check_indices(m, "cube"), Error);
+    m = test::cube();
+    m.face_offset[2] = m.face_offset[1] + 2;
+    EXPECT_THROW(check_indices(m, "cube"), Error);
+}
+
+TEST(PolygonMesh, IslandsBecomePanels) {
+    PolygonMesh m = test::both(test::panel(2, 2, 0.1), test::panel(2, 2, 0.1, {1, 0, 0}));
+    panels_from_uv_islands(m);
+    EXPECT_EQ(m.panel_name, (std::vector<std::string>{"island0", "island1"}));
+    EXPECT_EQ(m.face_panel, (std::vector<std::uint16_t>{0, 0, 0, 0, 1, 1, 1, 1}));
+}
+
+} // namespace
+} // namespace tsuya::garment

@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "test_meshes.h"
+#include "tsuya/garment/check.h"
+#include "tsuya/garment/garment.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::garment {
+namespace {
+
+using test::both;
+using test::panel;
+using test::triangulated;
+
+std::set<std::string> keys(const Report &report) {
+    std::set<std::string> result;
+    for (const Finding &f : report.findings)
+        result.insert(f.key);
+    return result;
+}
+
+TEST(Seams, PanelsThatLieEdgeToEdgeAreJoined) {
+    const PolygonMesh two = both(panel(4, 3, 0.1), panel(4, 3, 0.1, {0.4002, 0, 0}));
+    const Prepared p = prepare(two);
+    EXPECT_EQ(p.report.parts_before, 2u);
+    EXPECT_EQ(p.report.parts, 1u);
+    EXPECT_EQ(p.report.loops_before, 2u);
+    EXPECT_EQ(p.report.openings.size(), 1u);
+    EXPECT_EQ(p.report.seams.joined, 4u);
+    EXPECT_EQ(p.report.seams.splits, 0u);
+    EXPECT_NEAR(p.report.seams.largest_gap, 0.0002, 1e-12);
+    EXPECT_EQ(p.mesh.position.size(), two.position.size() - 4);
+    EXPECT_EQ(p.report.uv_islands, 2u);
+    EXPECT_NEAR(p.report.openings[0].length, 2 * (0.8002 + 0.3), 1e-9);
+}
+
+TEST(Seams, BeyondTheToleranceOrSwitchedOffNothingIsJoined) {
+    const PolygonMesh two = both(panel(4, 3, 0.1), panel(4, 3, 0.1, {0.4002, 0, 0}));
+    EXPECT_EQ(prepare(two, {.tolerance = 0.0001, .slit_width = 0}).report.parts, 2u);
+    EXPECT_EQ(prepare(two, {.tolerance = -1}).report.parts, 2u);
+    const PolygonMesh exact = both(panel(4, 3, 0.1), panel(4, 3, 0.1, {4 * 0.1, 0, 0}));
+    EXPECT_EQ(prepare(exact, {.tolerance = 0}).report.parts, 1u);
+}
+
+TEST(Seams, TJunctionsAreSplitForQuadsAndTriangles) {
+    // The neighbour has two edges where this one has one.
+    const PolygonMesh coarse = panel(2, 2, 0.2), fine = panel(4, 4, 0.1, {0.4, 0, 0});
+    const Prepared quads = prepare(both(coarse, fine));
+    EXPECT_EQ(quads.report.seams.splits, 2u);
+    EXPECT_EQ(quads.report.parts, 1u);
+    EXPECT_EQ(quads.report.openings.size(), 1u);
+    EXPECT_EQ(quads.report.openings[0].edges, 3u * 2 + 3 * 4);
+    const Prepared triangles = prepare(triangulated(both(coarse, fine)));
+    EXPECT_EQ(triangles.report.seams.splits, 2u);
+    EXPECT_EQ(triangles.report.parts, 1u);
+    for (std::size_t f = 0; f < triangles.mesh.face_count(); ++f)
+        EXPECT_EQ(triangles.mesh.face_size(f), 3u);
+    // The UV of the new corner lies on the edge, and stays apart from the neighbour's.
+    bool found = false;
+    for (std::size_t c = 0; c < quads.mesh.corner_position.size(); ++c)
+        if (quads.mesh.position[quads.mesh.corner_position[c]] == glm::dvec3(0.4, 0.1, 0) &&
+            quads.mesh.uv[static_cast<std::size_t>(quads.mesh.corner_uv[c])].x > 0.3) {
+            found = true;
+            EXPECT_NEAR(quads.mesh.uv[static_cast<std::size_t>(quads.mesh.corner_uv[c])].y, 0.1,
+                        1e-12);
+        }
+    EXPECT_TRUE(found);
+}
+
+TEST(Seams, SlitsAreClosed) {
+    // One vertex of the seam hangs off its neighbour by more than the tolerance.
+    PolygonMesh two = triangulated(both(panel(4, 6, 0.01), panel(4, 6, 0.01, {0.04, 0, 0})));
+    for (glm::dvec3 &p : two.position)
+        if (glm::distance(p, glm::dvec3(0.04, 0.03, 0)) < 1e-9) {
+            p.x += 0.001;
+            break;
+        }
+    const Report open = check(two, {.slit_width = 0});
+    EXPECT_EQ(open.openings.size(), 2u);
+    const Report closed = check(two);
+    EXPECT_EQ(closed.openings.size(), 1u);
+    EXPECT_EQ(closed.seams.slits, 1u);
+}
+
+TEST(Seams, PleatsAreJoinedInPairsOfLayers) {
+    // The lower panel runs forward, back and forward again along one edge of the upper.
+    PolygonMesh pleated;
+    const double x[] = {0.0, 0.1, 0.2, 0.1, 0.0, 0.1, 0.2, 0.3};
+    for (int i = 0; i < 8; ++i) {
+        pleated.position.emplace_back(x[i], 0.0, 1e-4 * (i / 3));
+        pleated.position.emplace_back(x[i], -0.1, 0.01 * i);
+        pleated.uv.emplace_back(0.1 * i, 0.1);
+        pleated.uv.emplace_back(0.1 * i, 0.0);
+    }
+    for (std::uint32_t i = 0; i < 7; ++i) {
+        const std::uint32_t a = 2 * i;
+        const auto t = static_cast<std::int32_t>(a);
+        pleated.add_face({a + 1, a + 3, a + 2, a}, {t + 1, t + 3, t + 2, t}, 0);
+    }
+    const Prepared p = prepare(both(panel(3, 2, 0.1), pleated));
+    EXPECT_EQ(p.report.parts, 1u);
+    EXPECT_EQ(p.report.joined.detached_faces, 0u);
+    EXPECT_GE(p.report.joined.non_manifold_edges, 2u);
+    EXPECT_TRUE(keys(p.report).contains("layered_seams"));
+    // Nothing stays open along the seam.
+    for (const BoundaryLoop &loop : p.report.openings)
+        EXPECT_GT(loop.length, 0.5);
+}
+
+TEST(Seams, TheLimitSurfaceClosesBitExactly) {
+    const PolygonMesh two = both(panel(4, 3, 0.1), panel(4, 3, 0.1, {0.4002, 0, 0}));
+    LimitMesh limit = subdivide(prepare(two).mesh, {.level = 2});
+    std::size_t seam = 0;
+    for (std::size_t v = 0; v < limit.place.size(); ++v) {
+        const std::uint32_t p = limit.place[v];
+        seam += p != v;
+        EXPECT_EQ(limit.position[v], limit.position[p]);
+        EXPECT_EQ(limit.normal[v], limit.normal[p]);
+        EXPECT_EQ(limit.uv[v] == limit.uv[p], p == v);
+    }
+    EXPECT_EQ(seam, 3u * 4 + 1);
+}
+
+TEST(Manifold, CountsWhatItDrops) {
+    PolygonMesh m = test::cube();
+    m.position.emplace_back(5, 5, 5);
+    m.add_face({0, 1, 1}, {-1, -1, -1}, 0);
+    m.add_face({2, 3, 1, 0}, {-1, -1, -1, -1}, 0);
+    ManifoldReport report;
+    const PolygonMesh fixed = make_manifold(m, report);
+    EXPECT_EQ(fixed.face_count(), 6u);
+    EXPECT_EQ(report.degenerate_faces, 1u);
+    EXPECT_EQ(report.duplicate_faces, 1u);
+    EXPECT_EQ(report.isolated_vertices, 1u);
+    EXPECT_EQ(report.flipped_faces, 0u);
+}
+
+TEST(Manifold, TurnsTheMinorityOver) {
+    PolygonMesh m = panel(5, 5, 0.1);
+    for (const std::size_t f : {3u, 12u, 13u})
+        std::reverse(m.corner_position.begin() + 4 * static_cast<std::ptrdiff_t>(f),
+                     m.corner_position.begin() + 4 * static_cast<std::ptrdiff_t>(f) + 4);
+    const Prepared p = prepare(m);
+    EXPECT_EQ(p.report.file.flipped_faces, 3u);
+    EXPECT_EQ(p.report.openings.size(), 1u);
+    EXPECT_TRUE(keys(p.report).contains("flipped_faces"));
+}
+
+TEST(Manifold, SplitsBowTiesAndCutsMoebiusStrips) {
+    PolygonMesh bow = both(panel(1, 1, 0.1), panel(1, 1, 0.1, {0.1, 0.1, 0}));
+    bow.corner_position[4] = 3; // one vertex for both
+    Report report = check(bow);
+    EXPECT_EQ(report.file.non_manifold_vertices, 1u);
+    EXPECT_EQ(report.parts, 2u);
+
+    PolygonMesh strip;
+    const int n = 12;
+    for (int i = 0; i < n; ++i) {
+        const double a = 2 * std::numbers::pi * i / n, b = 0.5 * a;
+        const glm::dvec3 out(std::cos(a), std::sin(a), 0);
+        for (const double w : {-0.3, 0.3})
+            strip.position.push_back(out + w * (std::cos(b) * out + glm::dvec3(0, 0, std::sin(b))));
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t a = 2 * i, b = a + 1, c = i + 1 == n ? 1 : a + 2,
+                            d = i + 1 == n ? 0 : a + 3;
+        strip.add_face({a, b, d, c}, {-1, -1, -1, -1}, 0);
+    }
+    report = check(strip);
+    EXPECT_GT(report.file.unorientable_edges, 0u);
+    EXPECT_TRUE(keys(report).contains("unorientable_edges"));
+}
+
+TEST(Check, MeasuresUvScaleUnitsAndMirroring) {
+    PolygonMesh m = both(panel(4, 4, 0.1), panel(4, 4, 0.1, {1, 0, 0}));
+    for (std::size_t t = 25; t < 50; ++t)
+        m.uv[t].x = -m.uv[t].x;
+    for (glm::dvec2 &t : m.uv)
+        t.y *= 0.5;
+    const Report report = check(m);
+    EXPECT_NEAR(report.metres_per_uv_weft.p50, 1.0, 1e-12);
+    EXPECT_NEAR(report.metres_per_uv_warp.p5, 2.0, 1e-12);
+    EXPECT_EQ(report.mirrored_islands, 1u);
+    EXPECT_EQ(report.mirrored_faces, 16u);
+    EXPECT_NEAR(report.area, 2 * 0.16, 1e-12);
+    EXPECT_TRUE(keys(report).contains("uneven_uv_scale"));
+    EXPECT_FALSE(keys(report).contains("unusual_size"));
+    PolygonMesh large = panel(4, 4, 30.0);
+    EXPECT_TRUE(keys(check(large)).contains("unusual_size"));
+}
+
+} // namespace
+} // namespace tsuya::garment
