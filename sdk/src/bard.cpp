@@ -38,12 +38,13 @@ glm::dvec2 disk_of(double theta, double phi) {
     return {r * std::cos(phi), r * std::sin(phi)};
 }
 
-glm::dvec2 folded(glm::dvec2 p, Symmetry symmetry) {
-    if (symmetry == Symmetry::orthotropic)
-        return glm::abs(p);
-    if (symmetry == Symmetry::half_turn && (p.y < 0 || (p.y == 0 && p.x < 0)))
-        return -p;
-    return p;
+// Whether the symmetry makes two points of the disk one; also on the edges of the domain, where
+// rounding would fold them to opposite ends.
+bool is_same_view(glm::dvec2 a, glm::dvec2 b, Symmetry symmetry) {
+    int count = 0;
+    const auto image = images(a.x, a.y, symmetry, count);
+    return std::any_of(image.begin(), image.begin() + count,
+                       [&](glm::dvec2 p) { return glm::length(p - b) < kSameView; });
 }
 
 } // namespace
@@ -71,9 +72,9 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
     };
     std::vector<Group> groups;
     for (const BardView &view : views_) {
-        const glm::dvec2 p = folded(disk_of(view.theta, view.phi), symmetry_);
+        const glm::dvec2 p = disk_of(view.theta, view.phi);
         const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group &g) {
-            return glm::length(g.p - p) < kSameView;
+            return is_same_view(g.p, p, symmetry_);
         });
         if (same == groups.end())
             groups.push_back({p, {&view}});

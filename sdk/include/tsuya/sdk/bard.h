@@ -67,7 +67,7 @@ class Bard {
     Symmetry symmetry_ = Symmetry::orthotropic;
     BardSmoothness smoothness_{};
     std::vector<BardView> views_{};
-    std::vector<Node> nodes_{};    ///< one a distinct view, in the fundamental domain
+    std::vector<Node> nodes_{};    ///< one a distinct view
     std::vector<Node> mirrored_{}; ///< nodes with their mirror images
     std::vector<double> log_value_{}, relative_sigma_{};
     double mean_log_ = 0, peak_ = 0, asymmetry_ = 0;
