@@ -1,6 +1,7 @@
 #include "tsuya/sdk/fabric.h"
 
 #include <algorithm>
+#include <locale>
 #include <numbers>
 #include <sstream>
 
@@ -148,6 +149,7 @@ Fabric read_fabric(const std::filesystem::path &file) {
 
 void write_fabric(const Fabric &fabric, const std::filesystem::path &file) {
     std::ostringstream out;
+    out.imbue(std::locale::classic()); // a decimal point in every country
     out.precision(6);
     out << "schema = \"" << kSchema << "\"\nname = " << quoted(fabric.name) << "\n";
     if (fabric.bard)

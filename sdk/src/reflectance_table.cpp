@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -24,6 +23,14 @@ std::string_view trimmed(std::string_view text) {
     if (first == std::string_view::npos)
         return {};
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+// As %g of the C locale, whatever the locale is.
+std::string number_text(double value, int digits) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                   std::chars_format::general, digits);
+    return {text.data(), end.ptr};
 }
 
 // Reads the lines of a table and remembers where it is, for errors.
@@ -191,16 +198,10 @@ void write_reflectance_table(const ReflectanceTable &table, const std::filesyste
     text += "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr";
     text += sigma ? ",sigma_per_sr\n" : "\n";
     for (const ReflectanceRow &r : table.rows) {
-        char line[160];
-        int n =
-            std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.6g", r.theta_i / kDegree,
-                          r.phi_i / kDegree, r.theta_r / kDegree, r.phi_r / kDegree, r.brdf_per_sr);
-        text.append(line, static_cast<std::size_t>(n));
-        if (sigma) {
-            n = std::snprintf(line, sizeof line, ",%.3g", r.sigma_per_sr);
-            text.append(line, static_cast<std::size_t>(n));
-        }
-        text += '\n';
+        for (const double angle : {r.theta_i, r.phi_i, r.theta_r, r.phi_r})
+            text += number_text(angle / kDegree, 9) + ",";
+        text += number_text(r.brdf_per_sr, 6);
+        text += sigma ? "," + number_text(r.sigma_per_sr, 3) + "\n" : "\n";
     }
     write_file(file, text);
 }
