@@ -9,7 +9,9 @@ Frame make_frame(const glm::vec3 &normal, const glm::vec3 &warp) {
     const float length2 = glm::dot(tangent, tangent);
     if (!(length2 > 1e-12f * glm::dot(warp, warp)) || !std::isfinite(length2))
         return make_frame(normal);
-    const glm::vec3 unit = tangent / std::sqrt(length2);
+    // Again, for the little that is left of a nearly parallel warp is mostly rounding
+    const glm::vec3 rough = tangent / std::sqrt(length2);
+    const glm::vec3 unit = glm::normalize(rough - glm::dot(rough, normal) * normal);
     return {glm::cross(unit, normal), unit, normal};
 }
 
