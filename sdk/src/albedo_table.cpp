@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kRows = 33;            // over sqrt(cos theta): 0.06 degrees at the horizon
 constexpr int kColumnsOfQuarter = 8; // 11 degrees
-constexpr float kLowest = 1e-4f;     // cosine that stands for the horizon itself
+constexpr float kLowest = 1e-5f;     // cosine that stands for the horizon itself
 
 // Azimuth without trigonometry: |x| + |y| = 1 walked from the weft axis, 1 a quarter, in [0, 4].
 float quarters(const glm::vec3 &d) {

@@ -1,0 +1,213 @@
+#include "tsuya/sdk/bard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "sdk/hemisphere_quadrature.h"
+#include "sdk/synthetic_table.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+ReflectanceRow view(double theta_deg, double phi_deg, double value, double sigma = 0) {
+    return {.theta_r = theta_deg * kDegree,
+            .phi_r = phi_deg * kDegree,
+            .brdf_per_sr = value,
+            .sigma_per_sr = sigma};
+}
+
+Bard fit(const ReflectanceTable &table) { return Bard::fit(table, "table.csv"); }
+
+TEST(Bard, MeetsExactViews) {
+    const Bard bard = fit(normal_table(satin_cloth(), even_grid(6, 15)));
+    EXPECT_LT(bard.residual(), 1e-3);
+    for (const BardView &v : bard.views()) {
+        const glm::dvec3 d = direction(v.theta / kDegree, v.phi / kDegree);
+        EXPECT_NEAR(bard.at(d), v.brdf_per_sr, 0.005 * v.brdf_per_sr);
+        EXPECT_NEAR(bard.at(d), v.fitted_per_sr, 1e-9 * v.fitted_per_sr);
+    }
+}
+
+TEST(Bard, ReproducesASmoothFunctionBetweenTheViews) {
+    const Cloth cloth = satin_cloth();
+    const Bard bard = fit(normal_table(cloth, even_grid(5, 10)));
+    double worst = 0;
+    for (double theta = 0; theta < 80; theta += 1.7)
+        for (double phi = 0; phi < 360; phi += 7.3) {
+            const glm::dvec3 d = direction(theta, phi);
+            const double expected = reflectance(cloth, {0, 0, 1}, d);
+            worst = std::max(worst, std::abs(bard.at(d) - expected) / expected);
+        }
+    EXPECT_LT(worst, 0.02);
+}
+
+TEST(Bard, PositiveBetweenNoisyAndNarrowViews) {
+    ReflectanceTable table = normal_table(narrow_cloth(), even_grid(5, 15));
+    Random random(31);
+    for (ReflectanceRow &row : table.rows)
+        row.brdf_per_sr *= random.number() < 0.2f ? 0 : 0.5 + random.number();
+    const Bard bard = fit(table);
+    for (int i = 0; i < 20000; ++i) {
+        const double value = bard.at(random.direction());
+        ASSERT_TRUE(std::isfinite(value) && value > 0);
+    }
+}
+
+TEST(Bard, DoesNotOvershootANarrowPeak) {
+    const Cloth cloth = narrow_cloth();
+    const ReflectanceTable table = normal_table(cloth, even_grid(3, 15));
+    const Bard bard = fit(table);
+    double highest = 0;
+    Random random(32);
+    for (int i = 0; i < 20000; ++i)
+        highest = std::max(highest, bard.at(random.direction()));
+    for (double theta = 0; theta < 10; theta += 0.05)
+        highest = std::max(highest, bard.at(direction(theta, 3 * theta)));
+    EXPECT_LT(highest, 1.05 * bard.peak());
+}
+
+TEST(Bard, SymmetriesHoldToDoublePrecision) {
+    Random random(33);
+    const Bard orthotropic = bard_of(satin_cloth()), half_turn = bard_of(twisted_cloth());
+    const Bard none = bard_of(leaning_cloth());
+    double mirrored_change = 0, turned_change = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 d = random.direction();
+        const glm::dvec3 turned(-d.x, -d.y, d.z), mirrored(d.x, -d.y, d.z);
+        EXPECT_NEAR(orthotropic.at(d), orthotropic.at(mirrored), 1e-12 * orthotropic.at(d));
+        EXPECT_NEAR(orthotropic.at(d), orthotropic.at(turned), 1e-12 * orthotropic.at(d));
+        EXPECT_NEAR(half_turn.at(d), half_turn.at(turned), 1e-12 * half_turn.at(d));
+        mirrored_change = std::max(mirrored_change, half_turn.at(mirrored) / half_turn.at(d));
+        turned_change = std::max(turned_change, none.at(turned) / none.at(d));
+    }
+    // What is not declared is not enforced
+    EXPECT_GT(mirrored_change, 1.5);
+    EXPECT_GT(turned_change, 1.5);
+}
+
+// Slopes from both sides, in the plane of the disk.
+void expect_same_slope(const Bard &bard, const glm::dvec3 &at, const glm::dvec3 &across) {
+    constexpr double kStep = 1e-5;
+    const auto value = [&](double s) { return std::log(bard.at(glm::normalize(at + s * across))); };
+    const double before = (value(0) - value(-kStep)) / kStep;
+    const double after = (value(kStep) - value(0)) / kStep;
+    EXPECT_NEAR(before, after, 0.02) << at.x << " " << at.y << " " << at.z;
+}
+
+TEST(Bard, SmoothAcrossMirrorPlanesAndPole) {
+    const Bard bard = bard_of(satin_cloth());
+    for (double theta = 2; theta < 89; theta += 3) {
+        expect_same_slope(bard, direction(theta, 0), {0, 1, 0});
+        expect_same_slope(bard, direction(theta, 90), {1, 0, 0});
+    }
+    for (double phi = 0; phi < 180; phi += 13)
+        expect_same_slope(bard, {0, 0, 1}, direction(90, phi));
+    for (const Cloth &cloth : {twisted_cloth(), leaning_cloth()})
+        for (double phi = 0; phi < 360; phi += 23) {
+            expect_same_slope(bard_of(cloth), {0, 0, 1}, direction(90, phi));
+            expect_same_slope(bard_of(cloth), direction(50, phi), direction(90, phi + 90));
+        }
+}
+
+TEST(Bard, ToleratesGaps) {
+    const Cloth cloth = satin_cloth();
+    ReflectanceTable table = normal_table(cloth, even_grid(5, 15));
+    std::erase_if(table.rows, [](const ReflectanceRow &r) {
+        const double theta = r.theta_r / kDegree, phi = r.phi_r / kDegree;
+        return theta > 28 && theta < 42 && phi > 40 && phi < 80;
+    });
+    const Bard bard = fit(table);
+    const glm::dvec3 missing = direction(35, 60);
+    EXPECT_NEAR(bard.at(missing) / reflectance(cloth, {0, 0, 1}, missing), 1, 0.1);
+}
+
+TEST(Bard, RepeatedViewsAreAveraged) {
+    ReflectanceTable table = normal_table(isotropic_cloth(), even_grid(10, 30));
+    const double at30 = reflectance(isotropic_cloth(), {0, 0, 1}, direction(30, 0));
+    for (ReflectanceRow &row : table.rows)
+        if (std::abs(row.theta_r - 30 * kDegree) < 1e-9 && row.phi_r == 0)
+            row.brdf_per_sr = 0.9 * at30;
+    table.rows.push_back(view(30, 0, 1.1 * at30));
+    const Bard bard = fit(table);
+    EXPECT_NEAR(bard.at(direction(30, 0)), at30, 0.01 * at30);
+    const double expected =
+        std::sqrt((std::pow(std::log10(0.9), 2) + std::pow(std::log10(1.1), 2)) / 2);
+    EXPECT_NEAR(bard.asymmetry(), expected, 1e-9);
+    EXPECT_EQ(bard.views().size(), table.rows.size());
+}
+
+// Views at phi and phi + 180 degrees on the edges of the domain are the same under the half turn.
+TEST(Bard, AsymmetryIsReportedForEverySymmetry) {
+    for (const Symmetry symmetry : {Symmetry::orthotropic, Symmetry::half_turn})
+        for (const double phi : {0.0, 30.0, 90.0, 180.0}) {
+            ReflectanceTable table = normal_table(isotropic_cloth(), even_grid(15, 45));
+            std::erase_if(table.rows, [](const auto &r) { return r.theta_r > 50 * kDegree; });
+            table.symmetry = symmetry;
+            table.rows.push_back(view(70, phi, 0.012));
+            table.rows.push_back(view(70, phi + 180, 0.008));
+            const Bard bard = fit(table);
+            EXPECT_GT(bard.asymmetry(), 0.05) << name_of(symmetry) << " " << phi;
+            EXPECT_NEAR(bard.at(direction(70, phi)), 0.01, 2e-4) << name_of(symmetry) << " " << phi;
+        }
+    ReflectanceTable table = normal_table(leaning_cloth(), even_grid(15, 45));
+    EXPECT_EQ(fit(table).asymmetry(), 0);
+}
+
+TEST(Bard, NoisyViewsCountLess) {
+    ReflectanceTable table = normal_table(isotropic_cloth(), even_grid(6, 15));
+    const double exact = reflectance(isotropic_cloth(), {0, 0, 1}, direction(30, 45));
+    for (ReflectanceRow &row : table.rows)
+        if (std::abs(row.theta_r - 30 * kDegree) < 1e-9 &&
+            std::abs(row.phi_r - 45 * kDegree) < 1e-9)
+            row = view(30, 45, 2 * exact, 2 * exact);
+    const BardSmoothness smoothness;
+    const double doubted = Bard::fit(table, smoothness, "t").at(direction(30, 45));
+    for (ReflectanceRow &row : table.rows)
+        row.sigma_per_sr = 0;
+    const double trusted = Bard::fit(table, smoothness, "t").at(direction(30, 45));
+    EXPECT_NEAR(doubted, exact, 0.15 * exact);
+    EXPECT_NEAR(trusted, 2 * exact, 0.02 * exact);
+}
+
+TEST(Bard, BlackStaysBlack) {
+    ReflectanceTable table = normal_table(isotropic_cloth(), even_grid(15, 45));
+    for (ReflectanceRow &row : table.rows)
+        row.brdf_per_sr = 0;
+    const Bard bard = fit(table);
+    EXPECT_EQ(bard.peak(), 0);
+    EXPECT_EQ(bard.at({0, 0, 1}), 0);
+    EXPECT_EQ(bard.residual(), 0);
+}
+
+void expect_refused(const ReflectanceTable &table) {
+    try {
+        Bard::fit(table, "satin.csv");
+        FAIL() << "expected an Error";
+    } catch (const Error &error) {
+        ASSERT_EQ(error.problems().size(), 1u);
+        EXPECT_EQ(error.problems()[0].where, "satin.csv");
+        EXPECT_FALSE(error.problems()[0].accepted.empty());
+    }
+}
+
+TEST(Bard, RefusesTooFewViewsAndViewsTooNearToTheNormal) {
+    const ReflectanceTable full = normal_table(isotropic_cloth(), even_grid(10, 30));
+    ReflectanceTable few = full, near = full, oblique = full;
+    few.rows.resize(5);
+    std::erase_if(near.rows, [](const auto &r) { return r.theta_r > 15 * kDegree; });
+    for (ReflectanceRow &row : oblique.rows)
+        row.theta_i = 0.5; // no view has light from straight above
+    expect_refused(few);
+    expect_refused(near);
+    expect_refused(oblique);
+    expect_refused({});
+}
+
+} // namespace
+} // namespace tsuya::test

@@ -1,0 +1,360 @@
+// TABLE.csv and F.fabric.toml: what is written is read back, and what is wrong is told with its
+// place.
+
+#include "tsuya/sdk/fabric.h"
+
+#include <clocale>
+#include <cmath>
+#include <fstream>
+#include <locale>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "sdk/synthetic_table.h"
+#include "tsuya/sdk/document.h"
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// A folder of its own for every test, gone afterwards.
+class FilesTest : public testing::Test {
+  protected:
+    FilesTest()
+        : folder_(std::filesystem::temp_directory_path() /
+                  ("tsuya_files_" + std::to_string(getpid()))) {
+        std::filesystem::create_directories(folder_);
+    }
+    ~FilesTest() override { std::filesystem::remove_all(folder_); }
+
+    std::filesystem::path file(const std::string &name) const { return folder_ / name; }
+    std::filesystem::path file(const std::string &name, const std::string &text) const {
+        std::ofstream(file(name), std::ios::binary) << text;
+        return file(name);
+    }
+    bool is_empty() const { return std::filesystem::is_empty(folder_); }
+
+    // The problems that `read` throws, with the file's name cut off their places.
+    template <class Read>
+    std::vector<Problem> problems_of(const Read &read, const std::filesystem::path &name) const {
+        try {
+            read(name);
+        } catch (const Error &error) {
+            std::vector<Problem> problems = error.problems();
+            for (Problem &p : problems) {
+                EXPECT_EQ(p.where.substr(0, name.string().size()), name.string());
+                p.where.erase(0, name.string().size());
+            }
+            return problems;
+        }
+        ADD_FAILURE() << "expected an Error";
+        return {{}};
+    }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+using ReflectanceFile = FilesTest;
+using FabricFile = FilesTest;
+using WholeFile = FilesTest;
+
+const std::string kHeader = "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr\n";
+
+TEST_F(ReflectanceFile, IsReadBackAsWritten) {
+    for (const Symmetry symmetry : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
+        for (const bool sigma : {false, true}) {
+            ReflectanceTable table = normal_table(satin_cloth(), even_grid(10, 30));
+            table.symmetry = symmetry;
+            table.keys = {{"instrument", "made up"}, {"date", "2024-01-02T03:04:05"}};
+            table.rows.push_back({0.5, -1.25, 1.5, 6.0, 0, 0});
+            for (ReflectanceRow &row : table.rows)
+                row.sigma_per_sr = sigma ? 0.01 * row.brdf_per_sr : 0;
+            write_reflectance_table(table, file("t.csv"));
+            const ReflectanceTable back = read_reflectance_table(file("t.csv"));
+            EXPECT_EQ(back.keys, table.keys);
+            EXPECT_EQ(back.symmetry, symmetry);
+            EXPECT_EQ(back.has_sigma(), sigma);
+            ASSERT_EQ(back.rows.size(), table.rows.size());
+            for (std::size_t i = 0; i < table.rows.size(); ++i) {
+                const ReflectanceRow &a = table.rows[i], &b = back.rows[i];
+                EXPECT_NEAR(a.theta_i, b.theta_i, 1e-9);
+                EXPECT_NEAR(a.phi_i, b.phi_i, 1e-8);
+                EXPECT_NEAR(a.theta_r, b.theta_r, 1e-9);
+                EXPECT_NEAR(a.phi_r, b.phi_r, 1e-8);
+                EXPECT_NEAR(a.brdf_per_sr, b.brdf_per_sr, 1e-5 * a.brdf_per_sr);
+                EXPECT_NEAR(a.sigma_per_sr, b.sigma_per_sr, 1e-2 * a.sigma_per_sr);
+            }
+            EXPECT_EQ(back.normal_incidence().rows.size(), table.rows.size() - 1);
+        }
+}
+
+TEST_F(ReflectanceFile, CommentsBlanksAndCarriageReturnsAreTolerated) {
+    const auto name =
+        file("t.csv", "# a note\r\n#key :  a: b \r\n\r\n" + kHeader.substr(0, kHeader.size() - 1) +
+                          "\r\n 0, 0 ,30,-360,0.5\r\n# late\n0,0,90,360,1e-3");
+    const ReflectanceTable table = read_reflectance_table(name);
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_DOUBLE_EQ(table.rows[0].theta_r, 30 * kDegree);
+    EXPECT_EQ(table.rows[1].brdf_per_sr, 1e-3);
+    EXPECT_EQ(table.keys.at("key"), "a: b");
+    EXPECT_EQ(table.symmetry, Symmetry::orthotropic);
+}
+
+TEST_F(ReflectanceFile, BadOnesAreRefusedWithLineAndColumn) {
+    struct Bad {
+        std::string text, where;
+    };
+    const std::string good = "0,0,30,0,0.5\n";
+    for (const Bad &bad : {
+             Bad{"", ":0:1"},
+             {kHeader, ":1:1"},
+             {"theta_i_deg,phi_i_deg,theta_r_deg,brdf_per_sr\n" + good, ":1:1"},
+             {good, ":1:1"},
+             {kHeader + "0,0,30,0\n", ":2:9"},
+             {kHeader + "0,0,30,0,0.5,0.1\n", ":2:13"},
+             {kHeader + good + "0,0,x,0,0.5\n", ":3:5"},
+             {kHeader + "0,0,30,0,nan\n", ":2:10"},
+             {kHeader + "0,0,30,0,inf\n", ":2:10"},
+             {kHeader + "0,0,30,0,-0.1\n", ":2:10"},
+             {kHeader + "0,0,30,0,\n", ":2:10"},
+             {kHeader + "0,0,30,0,0.5x\n", ":2:10"},
+             {kHeader + "0,0,90.1,0,0.5\n", ":2:5"},
+             {kHeader + "-1,0,30,0,0.5\n", ":2:1"},
+             {kHeader + "0,361,30,0,0.5\n", ":2:3"},
+             {kHeader + "0,0,30,-400,0.5\n", ":2:8"},
+             {"# symmetry: orthotrop\n" + kHeader + good, ":1:1"},
+         }) {
+        const auto problems = problems_of(read_reflectance_table, file("t.csv", bad.text));
+        EXPECT_EQ(problems[0].where, bad.where) << bad.text;
+        EXPECT_EQ(problems.size(), 1u) << bad.text;
+        EXPECT_FALSE(problems[0].accepted.empty()) << bad.text;
+    }
+}
+
+TEST_F(ReflectanceFile, AWrongSymmetryHasASuggestion) {
+    const auto name = file("t.csv", "# symmetry: half-trun\n" + kHeader + "0,0,30,0,0.5\n");
+    EXPECT_NE(problems_of(read_reflectance_table, name)[0].accepted.find("did you mean half-turn?"),
+              std::string::npos);
+}
+
+TEST_F(ReflectanceFile, ProblemsAreCollectedUpToTwenty) {
+    std::string text = kHeader;
+    for (int i = 0; i < 30; ++i)
+        text += "0,0,95,0,0.5\n";
+    const auto problems = problems_of(read_reflectance_table, file("t.csv", text));
+    ASSERT_EQ(problems.size(), kMaxProblems);
+    EXPECT_EQ(problems[19].where, ":21:5");
+}
+
+Fabric satin() {
+    Fabric fabric{.name = "black \"satin\" \\ 5 ends"};
+    fabric.keys = {{"instrument", "made up"}, {"a key", "a value"}};
+    fabric.bard = bard_of(satin_cloth());
+    fabric.f0 = 0.05;
+    fabric.dye = {{400, 550, 700}, {0.1, 0.25, 0.9}};
+    fabric.specular_tint = Spectrum::constant(0.8);
+    return fabric;
+}
+
+TEST_F(FabricFile, IsReadBackAsWritten) {
+    const Fabric fabric = satin();
+    write_fabric(fabric, file("satin.fabric.toml"));
+    const Fabric back = read_fabric(file("satin.fabric.toml"));
+    EXPECT_EQ(back.name, fabric.name);
+    EXPECT_EQ(back.keys, fabric.keys);
+    EXPECT_EQ(back.f0, fabric.f0);
+    EXPECT_EQ(back.dye.wavelength_nm, fabric.dye.wavelength_nm);
+    EXPECT_EQ(back.dye.value, fabric.dye.value);
+    EXPECT_TRUE(back.specular_tint.is_constant());
+    EXPECT_EQ(back.specular_tint.at(500), 0.8);
+    ASSERT_TRUE(back.bard);
+    EXPECT_EQ(back.bard->views().size(), fabric.bard->views().size());
+    for (double theta = 0; theta < 90; theta += 7)
+        for (double phi = 0; phi < 360; phi += 23) {
+            const double a = fabric.bard->at(direction(theta, phi));
+            EXPECT_NEAR(back.bard->at(direction(theta, phi)), a, 1e-3 * a);
+        }
+}
+
+TEST_F(FabricFile, SymmetryIsKept) {
+    for (const Cloth &cloth : {satin_cloth(), twisted_cloth(), leaning_cloth()}) {
+        Fabric fabric{.name = "cloth"};
+        fabric.bard = bard_of(cloth);
+        write_fabric(fabric, file("c.fabric.toml"));
+        const Fabric back = read_fabric(file("c.fabric.toml"));
+        EXPECT_EQ(back.bard->symmetry(), cloth.symmetry);
+        EXPECT_FALSE(back.f0);
+    }
+}
+
+TEST_F(FabricFile, AFabricWithoutViewsIsOnlyDye) {
+    const auto name = file("d.fabric.toml", "schema = \"tsuya-fabric 1\"\nname = \"dye\"\n"
+                                            "[dye]\nconstant = 0.5\n");
+    const Fabric fabric = read_fabric(name);
+    EXPECT_FALSE(fabric.bard);
+    const Material material = resolve(fabric, "dye");
+    EXPECT_TRUE(material.has_diffuse());
+    EXPECT_FALSE(material.has_specular());
+}
+
+// Numbers are written alike in every country.
+struct GermanNumbers : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+TEST_F(FabricFile, DoesNotDependOnTheLocale) {
+    write_fabric(satin(), file("a.fabric.toml"));
+    write_reflectance_table(normal_table(satin_cloth(), even_grid(30, 45)), file("a.csv"));
+    const std::locale before = std::locale::global(std::locale(std::locale(), new GermanNumbers));
+    const char *const c_locale = std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
+    write_fabric(satin(), file("b.fabric.toml"));
+    write_reflectance_table(normal_table(satin_cloth(), even_grid(30, 45)), file("b.csv"));
+    if (c_locale)
+        std::setlocale(LC_NUMERIC, "C");
+    std::locale::global(before);
+    EXPECT_EQ(read_file(file("a.fabric.toml")), read_file(file("b.fabric.toml")));
+    EXPECT_EQ(read_file(file("a.csv")), read_file(file("b.csv")));
+}
+
+const std::string kStart = "schema = \"tsuya-fabric 1\"\nname = \"f\"\n"; // lines 1 and 2
+
+TEST_F(FabricFile, BadOnesAreRefusedWithLineAndColumn) {
+    struct Bad {
+        std::string text, where, what;
+    };
+    const std::string views = "[views]\ntheta_deg = [0, 30]\nphi_deg = [0, 0]\n";
+    for (const Bad &bad : {
+             Bad{"name = \"f\"\n", ":1:1", "schema"},
+             {"schema = \"tsuya-fabric 9\"\nname = \"f\"\n", ":1:10", "tsuya-fabric 9"},
+             {"schema = \"tsuya-fabric 1\"\n", ":1:1", "name"},
+             {"schema = \"tsuya-fabric 1\"\nname = 3\n", ":2:8", "name"},
+             {kStart + "f0 = 0\n", ":3:6", "f0"},
+             {kStart + "f0 = 1.5\n", ":3:6", "f0"},
+             {kStart + "f0 = nan\n", ":3:6", "f0"},
+             {kStart + "f0 = \"0.05\"\n", ":3:6", "f0"},
+             {kStart + "symmetry = \"orthtropic\"\n", ":3:12", "orthtropic"},
+             {kStart + "dye = 0.5\n", ":3:7", "dye"},
+             {kStart + "[dye]\nconstant = -0.5\n", ":4:12", "constant"},
+             {kStart + "[dye]\nwavelength_nm = [400, 500]\nvalue = [0.5]\n", ":3:1", "wavelengths"},
+             {kStart + "[dye]\nwavelength_nm = [500, 400]\nvalue = [0, 1]\n", ":3:1", "increase"},
+             {kStart + "[dye]\nwavelength_nm = [400, 500]\nvalue = [0, 2]\n", ":3:1", "500"},
+             {kStart + "[dye]\nwavelength_nm = [400, \"a\"]\nvalue = [0, 1]\n", ":4:17",
+              "wavelength_nm"},
+             {kStart + views + "brdf_per_sr = [1]\n", ":6:15", "length"},
+             {kStart + views + "brdf_per_sr = [1, nan]\n", ":6:15", "brdf_per_sr"},
+             {kStart + views + "brdf_per_sr = [1, -1]\n", ":6:15", "view 1"},
+             {kStart + "[views]\ntheta_deg = [0, 95]\nphi_deg = [0, 0]\nbrdf_per_sr = [1, 1]\n",
+              ":6:15", "view 1"},
+             {kStart + "[smoothness]\nweft_support = 1\n", ":3:1", "missing"},
+             {kStart + "[[", ":3:3", ""},
+         }) {
+        const auto problems = problems_of(read_fabric, file("f.fabric.toml", bad.text));
+        EXPECT_EQ(problems[0].where, bad.where) << bad.text << problems[0].what;
+        EXPECT_NE(problems[0].what.find(bad.what), std::string::npos) << problems[0].what;
+    }
+}
+
+TEST_F(FabricFile, UnknownKeysAreRefusedWithTheNearestKnown) {
+    const auto name = file("f.fabric.toml", kStart + "f_0 = 0.5\n[views]\nthetadeg = [0]\n[dy]\n");
+    const auto problems = problems_of(read_fabric, name);
+    const auto expect = [&](const std::string &where, const std::string &accepted) {
+        EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [&](const Problem &p) {
+            return p.where == where && p.what.find("unknown key") == 0 &&
+                   p.accepted.find("did you mean " + accepted + "?") != std::string::npos;
+        })) << where;
+    };
+    expect(":3:1", "f0");
+    expect(":5:1", "theta_deg");
+    expect(":6:2", "dye");
+}
+
+TEST_F(FabricFile, TooFewViewsNameTheFile) {
+    const auto name = file("f.fabric.toml", kStart + "[views]\ntheta_deg = [0, 30]\n"
+                                                     "phi_deg = [0, 0]\nbrdf_per_sr = [1, 1]\n");
+    EXPECT_EQ(problems_of(read_fabric, name)[0].where, ": views");
+}
+
+TEST(Resolve, RefusesWhatIsOutOfRange) {
+    const auto expect_refused = [](const Fabric &fabric, const std::string &where) {
+        try {
+            resolve(fabric, "fabrics.satin");
+            ADD_FAILURE() << "expected an Error";
+        } catch (const Error &error) {
+            EXPECT_EQ(error.problems().at(0).where, where);
+        }
+    };
+    Fabric bright = satin(), tinted = satin(), facets = satin();
+    bright.dye = Spectrum::constant(1.1);
+    tinted.specular_tint = Spectrum::constant(-0.1);
+    facets.f0 = 0;
+    expect_refused(bright, "fabrics.satin.dye");
+    expect_refused(tinted, "fabrics.satin.specular_tint");
+    expect_refused(facets, "fabrics.satin.f0");
+}
+
+TEST(Resolve, TakesTheNormalReflectanceForF0) {
+    Fabric fabric = satin();
+    fabric.f0.reset();
+    const Material material = resolve(fabric, "satin");
+    ASSERT_TRUE(material.has_specular());
+    const double rho = fabric.bard->at({0, 0, 1});
+    const TakedaBrdf expected(*fabric.bard, std::min(1.0, rho));
+    const glm::vec3 light = direction(40, 10), view = direction(60, 170);
+    EXPECT_EQ(std::get<TakedaBrdf>(*material.specular).evaluate(light, view),
+              expected.evaluate(light, view));
+}
+
+TEST_F(WholeFile, WritesToNoFolderLeaveNothing) {
+    const auto missing = file("missing") / "t.csv";
+    for (const auto &write : std::vector<std::function<void()>>{
+             [&] { write_file(missing, "text"); },
+             [&] {
+                 write_reflectance_table(normal_table(satin_cloth(), even_grid(30, 90)), missing);
+             },
+             [&] { write_fabric(satin(), missing); }}) {
+        try {
+            write();
+            ADD_FAILURE() << "expected an Error";
+        } catch (const Error &error) {
+            EXPECT_EQ(error.problems().at(0).where, missing.string());
+        }
+    }
+    EXPECT_TRUE(is_empty());
+}
+
+TEST_F(WholeFile, AFailedReplacementKeepsTheOldAndNoPart) {
+    std::filesystem::create_directory(file("t.csv")); // a folder cannot be replaced by a file
+    EXPECT_THROW(write_file(file("t.csv"), "text"), Error);
+    EXPECT_TRUE(std::filesystem::is_directory(file("t.csv")));
+    std::filesystem::remove(file("t.csv"));
+    EXPECT_TRUE(is_empty());
+}
+
+TEST_F(WholeFile, IsReadAsWritten) {
+    const std::string bytes("a\0b\r\n\xff", 6);
+    write_file(file("x.bin"), bytes);
+    EXPECT_EQ(read_file(file("x.bin")), bytes);
+    EXPECT_EQ(temporary_name(file("x.exr")).extension(), ".exr");
+    EXPECT_THROW(read_file(file("none")), Error);
+    EXPECT_THROW(read_file(file("x.bin").parent_path()), Error);
+}
+
+TEST_F(WholeFile, SectionsKeepTheOrderOfTheFile) {
+    const Document document(file("d.toml", "z = { k = \"1\" }\n[b]\nk = \"2\"\n[a]\nk = \"3\"\n"));
+    std::string order;
+    for (const auto &[key, section] : document.root().sections())
+        order += key + section.required_text("k");
+    EXPECT_EQ(order, "z1b2a3");
+    EXPECT_NO_THROW(document.finish());
+}
+
+} // namespace
+} // namespace tsuya::test
