@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "edges.h"
 
@@ -138,6 +139,15 @@ std::size_t detach_faces(PolygonMesh &mesh) {
             mesh.position.push_back(p);
         }
     return faces.size();
+}
+
+void keep_place(FirstPlaces &places, const std::string &key, const glm::dvec3 &p) {
+    if (places.contains(key))
+        return;
+    std::ostringstream text;
+    text.precision(6);
+    text << "near (" << p.x << ", " << p.y << ", " << p.z << ")";
+    places.emplace(key, text.str());
 }
 
 glm::dvec3 face_normal(const PolygonMesh &mesh, std::size_t f, double &area) {

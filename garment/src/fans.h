@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/garment/report.h"
 
 namespace tsuya::garment {
 
@@ -17,6 +18,9 @@ std::size_t split_fans(PolygonMesh &mesh);
 
 /// Gives faces whose edges are still not manifold vertices of their own. Returns their number.
 std::size_t detach_faces(PolygonMesh &mesh);
+
+/// Keeps the place of the first finding of each key.
+void keep_place(FirstPlaces &places, const std::string &key, const glm::dvec3 &p);
 
 /// Unit normal of a face's area vector; 0 where it has no area. \param area the area
 glm::dvec3 face_normal(const PolygonMesh &mesh, std::size_t f, double &area);

@@ -20,6 +20,14 @@ std::string number(double value) {
 class Findings {
   public:
     explicit Findings(Report &report) : report_(report) {}
+    /// The first place of a key, the file before the joined mesh.
+    std::string place(const std::string &key) const {
+        for (const FirstPlaces *places : {&report_.file.first_place, &report_.joined.first_place,
+                                          &report_.seams.first_place, &report_.first_place})
+            if (const auto it = places->find(key); it != places->end())
+                return it->second;
+        return "";
+    }
 
     void add(Severity severity, std::string key, std::string what, std::string action,
              std::string where = "") {
@@ -28,10 +36,9 @@ class Findings {
     }
     /// Only where something was counted.
     void count(std::size_t n, Severity severity, std::string key, const std::string &what,
-               std::string action, std::string where = "") {
+               std::string action) {
         if (n > 0)
-            add(severity, std::move(key), std::to_string(n) + " " + what, std::move(action),
-                std::move(where));
+            add(severity, key, std::to_string(n) + " " + what, std::move(action), place(key));
     }
 
   private:

@@ -45,6 +45,18 @@ double choose_uv_scale(const Options &options, Report &report) {
     return measured;
 }
 
+void find_repairs(Report &report) {
+    const auto add = [&](std::size_t count, const char *key, const char *what, const char *action) {
+        if (count > 0)
+            report.findings.push_back(
+                {Severity::note, key, std::to_string(count) + " " + what, "", action});
+    };
+    add(report.repaired_normals, "repaired_normals", "points of the surface have no tangent plane",
+        "normal taken from beside them");
+    add(report.repaired_frames, "repaired_frames", "points of the surface have a degenerate UV",
+        "directions spread from the nearest of the same panel");
+}
+
 void refuse_warnings(const Report &report, const std::string &where) {
     std::vector<Problem> problems;
     for (const Finding &f : report.findings)
@@ -123,6 +135,7 @@ LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::s
         out.report.repaired_normals = limit.repaired_normals;
         out.report.repaired_frames = frame_report.repaired;
         out.report.repaired_area_share = frame_report.repaired_area_share;
+        find_repairs(out.report);
         if (options.strict)
             refuse_warnings(out.report, where);
         check_surface(out.surface, where);

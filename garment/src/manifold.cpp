@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+glm::dvec3 first_point(const PolygonMesh &mesh, std::size_t f) {
+    return mesh.position[mesh.corner_position[mesh.face_offset[f]]];
+}
+
 /// Drops repeated corners that follow each other, faces that keep fewer than 3 different vertices
 /// or name a vertex twice, and faces with the vertices of an earlier one.
 PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
@@ -46,6 +50,7 @@ PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
         const bool repeats = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
         if (vertices.size() < 3 || repeats) {
             ++report.degenerate_faces;
+            keep_place(report.first_place, "degenerate_faces", first_point(mesh, f));
             continue;
         }
         std::uint32_t duplicate = head[sorted.front()];
@@ -53,6 +58,7 @@ PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
             duplicate = next[duplicate];
         if (duplicate != kNone) {
             ++report.duplicate_faces;
+            keep_place(report.first_place, "duplicate_faces", first_point(mesh, f));
             continue;
         }
         next.push_back(head[sorted.front()]);
@@ -110,6 +116,7 @@ void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
             if (side[f] == turned) {
                 flip_face(mesh, f);
                 ++report.flipped_faces;
+                keep_place(report.first_place, "flipped_faces", first_point(mesh, f));
             }
     }
 }
@@ -138,10 +145,14 @@ PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report) {
     drop_isolated_vertices(out, report);
     orient_faces(out, report);
     EdgeTable(out).for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() > 2)
+        const glm::dvec3 &p = out.position[uses[0].low];
+        if (uses.size() > 2) {
             ++report.non_manifold_edges;
-        else if (uses.size() == 2 && uses[0].forward == uses[1].forward)
+            keep_place(report.first_place, "non_manifold_edges", p);
+        } else if (uses.size() == 2 && uses[0].forward == uses[1].forward) {
             ++report.unorientable_edges;
+            keep_place(report.first_place, "unorientable_edges", p);
+        }
     });
     report.non_manifold_vertices += split_fans(out);
     while (const std::size_t detached = detach_faces(out)) {

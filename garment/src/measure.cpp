@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fans.h"
+
 namespace tsuya::garment {
 namespace {
 
@@ -89,6 +91,9 @@ void measure_uv(const PolygonMesh &mesh, Report &report) {
     constexpr double kNoArea = 1e-9;
     std::uint32_t islands = 0;
     const std::vector<std::uint32_t> island = uv_islands(mesh, islands);
+    const auto at = [&](std::size_t f) {
+        return mesh.position[mesh.corner_position[mesh.face_offset[f]]];
+    };
     std::vector<double> signed_area(islands, 0.0), total_area(islands, 0.0);
     std::vector<std::pair<double, double>> weft, warp;
     std::vector<double> face_sign(mesh.face_count(), 0.0);
@@ -97,6 +102,7 @@ void measure_uv(const PolygonMesh &mesh, Report &report) {
         report.area += m.area;
         if (!has_uv(mesh, f)) {
             ++report.faces_without_uv;
+            keep_place(report.first_place, "faces_without_uv", at(f));
             continue;
         }
         double perimeter = 0.0;
@@ -106,6 +112,7 @@ void measure_uv(const PolygonMesh &mesh, Report &report) {
                               mesh.uv[static_cast<std::size_t>(mesh.corner_uv[mesh.next(f, c)])]);
         if (!(std::abs(m.uv_area) > kNoArea * perimeter * perimeter)) {
             ++report.faces_without_uv_area;
+            keep_place(report.first_place, "faces_without_uv_area", at(f));
             continue;
         }
         face_sign[f] = m.uv_area > 0.0 ? 1.0 : -1.0;
@@ -118,8 +125,11 @@ void measure_uv(const PolygonMesh &mesh, Report &report) {
         report.uv_islands += total_area[i] > 0.0;
         report.mirrored_islands += signed_area[i] < 0.0;
     }
-    for (const double sign : face_sign)
-        report.mirrored_faces += sign < 0.0;
+    for (std::size_t f = 0; f < face_sign.size(); ++f)
+        if (face_sign[f] < 0.0) {
+            ++report.mirrored_faces;
+            keep_place(report.first_place, "mirrored_faces", at(f));
+        }
     report.metres_per_uv_weft = percentiles(std::move(weft));
     report.metres_per_uv_warp = percentiles(std::move(warp));
 }

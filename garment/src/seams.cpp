@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "edges.h"
+#include "fans.h"
 #include "place_grid.h"
 #include "sewing.h"
 #include "topology.h"
@@ -294,8 +295,9 @@ bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
     return wide <= kTips && wide < n;
 }
 
-/// Vertices of the slits of a manifold mesh; false if there is none.
-bool find_slits(const PolygonMesh &mesh, double width, VertexSet &slits, std::size_t &count) {
+/// Vertices of the slits of a manifold mesh. Returns the number of slits.
+std::size_t find_slits(const PolygonMesh &mesh, double width, VertexSet &slits) {
+    std::size_t count = 0;
     const HalfEdgeMesh half_edges = make_half_edges(mesh);
     slits.member.assign(mesh.position.size(), false);
     for (const BoundaryRun &run : boundary_runs(half_edges)) {
@@ -309,7 +311,7 @@ bool find_slits(const PolygonMesh &mesh, double width, VertexSet &slits, std::si
         for (const auto h : run)
             slits.member[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())] = true;
     }
-    return count > 0;
+    return count;
 }
 
 } // namespace
@@ -326,22 +328,24 @@ PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, Seam
         const double tolerance =
             std::max(options.tolerance, kRounding * glm::distance(box.lower, box.upper));
         joined = make_manifold(sew(mesh, tolerance, {}, report), manifold);
-        for (int pass = 0; pass < kMaxSlitPasses; ++pass) {
+        std::size_t in_slits = 0;
+        glm::dvec3 first_slit(0.0);
+        for (int pass = 0; options.slit_width > tolerance; ++pass) {
             VertexSet slits;
-            std::size_t found = 0;
-            if (options.slit_width <= tolerance ||
-                !find_slits(joined, options.slit_width, slits, found))
+            const std::size_t found = find_slits(joined, options.slit_width, slits);
+            in_slits = found == 0 ? 0
+                                  : static_cast<std::size_t>(
+                                        std::count(slits.member.begin(), slits.member.end(), true));
+            if (found > 0)
+                first_slit = joined.position[static_cast<std::size_t>(
+                    std::find(slits.member.begin(), slits.member.end(), true) -
+                    slits.member.begin())];
+            if (found == 0 || pass == kMaxSlitPasses)
                 break;
             report.slits += found;
             joined = make_manifold(sew(joined, options.slit_width, slits, report), manifold);
         }
-        VertexSet left;
-        std::size_t slits_left = 0;
-        if (options.slit_width > tolerance)
-            find_slits(joined, options.slit_width, left, slits_left);
-        report.unresolved = std::max<std::size_t>(
-            find_insertions(joined, tolerance, {}).size(),
-            static_cast<std::size_t>(std::count(left.member.begin(), left.member.end(), true)));
+        report.unresolved = std::max(in_slits, find_insertions(joined, tolerance, {}).size());
     }
     report.boundary_after = ends_of(open_edges(joined, {})).size();
     return joined;

@@ -233,7 +233,7 @@ class FaceEvaluator {
         return at + kNudge * (centre - at);
     }
 
-    /// The chain rule through the face's own coordinates.
+    /// The chain rule through the face's own coordinates, which are Bfr's. [Bfr] Parameterization
     void set_derivatives(const Sample &s, std::uint32_t vertex) const {
         // Determinant over the squared size of the derivatives below which a UV has no area.
         constexpr double kDegenerate = 1e-6;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,12 @@ struct Finding {
     Severity severity = Severity::note;
     std::string key{};    ///< such as `non_manifold_edges`
     std::string what{};   ///< one sentence with the number
-    std::string where{};  ///< first place: `face 12`, `vertex 7 (x, y, z)`, a panel; may be empty
+    std::string where{};  ///< first place: `near (x, y, z)` in metres; may be empty
     std::string action{}; ///< what was done about it, or what the user can do
 };
+
+/// Where something was first found, by the key of its finding: `near (x, y, z)` in metres.
+using FirstPlaces = std::map<std::string, std::string>;
 
 /// One closed run of boundary edges.
 struct BoundaryLoop {
@@ -47,6 +51,7 @@ struct SeamReport {
     std::size_t splits = 0;          ///< vertices put into a neighbour's edge (T-junctions)
     std::size_t slits = 0;           ///< narrow gaps that were closed beyond the tolerance
     double largest_gap = 0;          ///< metres; largest distance that was closed
+    FirstPlaces first_place{};
     std::size_t unresolved = 0; ///< boundary vertices left that lie on another boundary edge or
                                 ///< in a slit that could not be closed
 };
@@ -60,7 +65,8 @@ struct ManifoldReport {
     std::size_t flipped_faces = 0;         ///< turned over to agree with their neighbours
     std::size_t unorientable_edges = 0;    ///< no side can be told (Moebius strip); cut open
     std::size_t detached_faces = 0;        ///< could not be kept with their neighbours; cut off
-    std::size_t isolated_vertices = 0;     ///< belong to no face; dropped
+    FirstPlaces first_place{};
+    std::size_t isolated_vertices = 0; ///< belong to no face; dropped
 };
 
 /// All that `check` finds. Counts are of the file unless they say otherwise.
@@ -79,6 +85,7 @@ struct Report {
     ManifoldReport file{};                ///< topology of the file
     ManifoldReport joined{};              ///< topology after joining
     SeamReport seams{};
+    FirstPlaces first_place{}; ///< of what concerns UVs
     std::size_t uv_islands = 0;
     std::size_t mirrored_islands = 0; ///< more than half of their area is mirrored
     std::size_t mirrored_faces = 0;   ///< against their island's majority or in a mirrored one

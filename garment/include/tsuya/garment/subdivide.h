@@ -14,6 +14,7 @@
 namespace tsuya::garment {
 
 /// Subdivision scheme; `automatic` is Loop for meshes of triangles alone, else Catmull-Clark.
+// [CatmullClark], [LoopScheme]
 enum class Scheme { automatic, catmark, loop };
 
 /// How the limit surface is sampled. Hems stay smooth curves that interpolate sharp corners (a
