@@ -43,12 +43,13 @@ std::optional<Lines> cut(const TextFile &file, const std::string &name, std::str
     int opened = 0;
     int closed = 0;
     for (const std::string &line : lines_of(file.text)) {
-        if (is_mark(line, "/doc:" + name))
+        const bool mark = is_mark(line, "doc:" + name);
+        if (is_mark(line, "/doc:" + name) || (mark && opened > closed))
             ++closed;
-        if (opened > closed)
-            inside.push_back(line);
-        if (is_mark(line, "doc:" + name))
+        else if (mark)
             ++opened;
+        else if (opened > closed)
+            inside.push_back(line);
     }
     if (opened == 1 && closed == 1)
         return inside;

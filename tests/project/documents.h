@@ -11,9 +11,10 @@ namespace tsuya::project {
 ///     <!-- code: tests/lab/some_test.cpp [doc:name] -->
 ///
 /// says that the block repeats the lines of that file between the marks `// [doc:name]` and
-/// `// [/doc:name]` (`#` in place of `//` for shell, CMake and TOML), each alone on its line.
-/// Indentation of the whole, spaces at line ends and empty lines at both ends do not count.
-/// Every block marked as cpp needs such a line, or `<!-- code: not compiled: REASON -->`.
+/// `// [/doc:name]`, or the first mark again (`#` in place of `//` for shell, CMake and TOML), each
+/// alone on its line. Indentation of the whole, spaces at line ends and empty lines at both ends do
+/// not count. Every block marked as cpp needs such a line, or `<!-- code: not compiled: REASON
+/// -->`.
 Findings check_documents(const std::vector<TextFile> &files);
 
 } // namespace tsuya::project
