@@ -1,38 +1,68 @@
 #include "oiio_file.h"
 
 #include <algorithm>
+#include <memory>
 #include <set>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "new_file.h"
 #include "rows.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya {
 namespace {
-
-constexpr const char *kWritable = "expected a folder that may be written to, with room";
 
 // Rows per call. A multiple of the 16 rows that EXR's zip packs as one; many blocks keep all cores
 // busy, few keep the buffer small.
 constexpr int kRowsAtOnce = 128;
 
-// Messages of OpenImageIO may run over many lines and may name the temporary file.
-std::string clean(std::string text, const std::filesystem::path &temporary,
-                  const std::filesystem::path &path) {
-    if (!temporary.empty())
-        for (std::size_t at; (at = text.find(temporary.string())) != std::string::npos;)
-            text.replace(at, temporary.string().size(), path.filename().string());
+// Messages of OpenImageIO may run over many lines.
+std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text.empty() ? "unknown cause" : text;
 }
 
-[[noreturn]] void throw_write(const std::string &cause, const NewFile &file,
-                              const std::filesystem::path &path) {
-    throw Error({"cannot write the picture: " + clean(cause, file.temporary(), path), path.string(),
-                 kWritable});
-}
+/// Encodes one picture in memory, and then writes the file at once: OpenImageIO reports success
+/// where the last bytes of a file do not fit on the disk.
+class Encoder {
+  public:
+    /// `format` is the extension, without the dot, that the path must have.
+    Encoder(std::filesystem::path path, const std::string &format)
+        : path_(std::move(path)), output_(nullptr) {
+        if (path_.extension() != '.' + format)
+            throw Error(
+                {"the file does not end in ." + format, path_.string(), "expected NAME." + format});
+        output_ = OIIO::ImageOutput::create(format);
+        if (!output_ || !output_->set_ioproxy(&bytes_))
+            fail(OIIO::geterror());
+    }
+
+    void open(const OIIO::ImageSpec &spec) { check(output_->open(path_.string(), spec)); }
+    void write(int first_row, int end_row, OIIO::TypeDesc type, const void *rows) {
+        check(output_->write_scanlines(first_row, end_row, 0, type, rows));
+    }
+    void finish() {
+        check(output_->close());
+        const std::vector<unsigned char> &bytes = bytes_.buffer();
+        write_file(path_, {reinterpret_cast<const char *>(bytes.data()), bytes.size()});
+    }
+
+  private:
+    void check(bool good) const {
+        if (!good)
+            fail(output_->geterror());
+    }
+    [[noreturn]] void fail(const std::string &cause) const {
+        throw Error({"cannot encode the picture: " + one_line(cause), path_.string(),
+                     "expected a picture that the format can hold"});
+    }
+
+    std::filesystem::path path_;
+    OIIO::Filesystem::IOVecOutput bytes_; // before its user
+    std::unique_ptr<OIIO::ImageOutput> output_;
+};
 
 void check_names(const std::vector<std::string> &names, const std::filesystem::path &path) {
     std::set<std::string> seen;
@@ -60,15 +90,9 @@ OIIO::ImageSpec spec_of(const OutputPicture &picture) {
 } // namespace
 
 void write_exr_picture(const std::filesystem::path &path, const OutputPicture &picture) {
-    if (path.extension() != ".exr")
-        throw Error({"the file does not end in .exr", path.string(), "expected NAME.exr"});
     check_names(picture.channels, path);
-    NewFile file(path);
-    const auto out = OIIO::ImageOutput::create(file.temporary().string());
-    if (!out)
-        throw_write(OIIO::geterror(), file, path);
-    if (!out->open(file.temporary().string(), spec_of(picture)))
-        throw_write(out->geterror(), file, path);
+    Encoder encoder(path, "exr");
+    encoder.open(spec_of(picture));
     const std::size_t row_size = static_cast<std::size_t>(picture.width) * picture.channels.size();
     std::vector<float> rows(row_size *
                             static_cast<std::size_t>(std::min(kRowsAtOnce, picture.height)));
@@ -78,12 +102,9 @@ void write_exr_picture(const std::filesystem::path &path, const OutputPicture &p
             for (int y = begin; y < end; ++y)
                 picture.fill_row(first + y, rows.data() + static_cast<std::size_t>(y) * row_size);
         });
-        if (!out->write_scanlines(first, first + count, 0, OIIO::TypeDesc::FLOAT, rows.data()))
-            throw_write(out->geterror(), file, path);
+        encoder.write(first, first + count, OIIO::TypeDesc::FLOAT, rows.data());
     }
-    if (!out->close())
-        throw_write(out->geterror(), file, path);
-    file.commit();
+    encoder.finish();
 }
 
 InputPicture read_picture(const std::filesystem::path &path) {
@@ -92,7 +113,7 @@ InputPicture read_picture(const std::filesystem::path &path) {
         throw Error({"there is no such file", path.string(), "expected a readable picture"});
     const auto in = OIIO::ImageInput::open(path.string());
     if (!in)
-        throw Error({"cannot read the picture: " + clean(OIIO::geterror(), {}, path), path.string(),
+        throw Error({"cannot read the picture: " + one_line(OIIO::geterror()), path.string(),
                      "expected a picture such as PNG, JPEG, TIFF or EXR"});
     const OIIO::ImageSpec &spec = in->spec();
     if (spec.deep || spec.depth > 1)
@@ -104,26 +125,20 @@ InputPicture read_picture(const std::filesystem::path &path) {
         if (value.type() == OIIO::TypeDesc::STRING)
             picture.attributes[value.name().string()] = value.get_string();
     if (!in->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, picture.image.data.data()))
-        throw Error({"cannot read the picture: " + clean(in->geterror(), {}, path), path.string(),
+        throw Error({"cannot read the picture: " + one_line(in->geterror()), path.string(),
                      "expected a complete picture"});
     return picture;
 }
 
 void write_png_samples(const std::filesystem::path &path, const Image &shape, int bits,
                        const void *samples) {
-    if (path.extension() != ".png")
-        throw Error({"the file does not end in .png", path.string(), "expected NAME.png"});
-    NewFile file(path);
     const OIIO::TypeDesc type = bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(shape.width, shape.height, static_cast<int>(shape.channels.size()), type);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    const auto out = OIIO::ImageOutput::create(file.temporary().string());
-    if (!out)
-        throw_write(OIIO::geterror(), file, path);
-    if (!out->open(file.temporary().string(), spec) || !out->write_image(type, samples) ||
-        !out->close())
-        throw_write(out->geterror(), file, path);
-    file.commit();
+    Encoder encoder(path, "png");
+    encoder.open(spec);
+    encoder.write(0, shape.height, type, samples);
+    encoder.finish();
 }
 
 } // namespace tsuya

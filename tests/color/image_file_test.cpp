@@ -1,9 +1,12 @@
 #include "tsuya/color/image_file.h"
 
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <limits>
 #include <random>
+
+#include <sys/resource.h>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +106,16 @@ TEST(ImageFile, SpectralRoundTripIsExact) {
     EXPECT_EQ(folder.size(), 1);
 }
 
+TEST(ImageFile, TallPictureIsExact) {
+    // More rows than are written at once.
+    const test::Folder folder;
+    Image image = Image::make(3, 333, {"Y"});
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+        image.data[i] = static_cast<float>(i);
+    write_exr(folder / "tall.exr", image);
+    EXPECT_EQ(read_image(folder / "tall.exr").data, image.data);
+}
+
 TEST(ImageFile, SpectralRoundTripOfOddBasis) {
     const test::Folder folder;
     for (const SpectralBasis basis : {SpectralBasis{32, 400, 700}, SpectralBasis{1, 500, 600},
@@ -195,9 +208,9 @@ TEST(ImageFile, FailedWriteLeavesNothing) {
                          "folder");
     std::filesystem::create_directory(folder / "taken.png");
     test::expect_problem([&] { write_png(folder / "taken.png", ramp(4, 4, {"Y"})); },
-                         (folder / "taken.png").string(), "name of a folder");
+                         (folder / "taken.png").string(), "cannot be written");
     test::expect_problem([&] { write_exr("/proc/full.exr", ramp(4, 4, {"Y"})); }, "/proc/full.exr",
-                         "cannot write");
+                         "cannot be written");
     const auto bad = folder / "bad.exr";
     test::expect_problem(
         [&] {
@@ -209,6 +222,50 @@ TEST(ImageFile, FailedWriteLeavesNothing) {
     test::expect_problem([&] { write_exr(folder / "bad.tif", ramp(4, 4, {"Y"})); },
                          (folder / "bad.tif").string(), "expected NAME.exr");
     EXPECT_EQ(folder.size(), 1); // the folder taken.png
+}
+
+/// Files may not grow beyond a size while the object lives, as on a full disk.
+class SmallFiles {
+  public:
+    explicit SmallFiles(rlim_t bytes) {
+        handler_ = std::signal(SIGXFSZ, SIG_IGN); // the write fails instead
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit small{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &small);
+    }
+    ~SmallFiles() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    SmallFiles(const SmallFiles &) = delete;
+    SmallFiles &operator=(const SmallFiles &) = delete;
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int) = nullptr;
+};
+
+TEST(ImageFile, FullDiskKeepsTheOldFile) {
+    const test::Folder folder;
+    const Image small = ramp(4, 4, {"R", "G", "B"});
+    Image large = Image::make(50, 40, {"R", "G", "B"});
+    std::mt19937 random(5);
+    for (float &v : large.data) // noise does not shrink
+        v = std::uniform_real_distribution<float>(0, 1)(random);
+    for (const char *name : {"p.png", "p.exr"}) {
+        const auto path = folder / name;
+        const bool png = path.extension() == ".png";
+        const auto write = [&](const Image &image) {
+            png ? write_png(path, image, 16) : write_exr(path, image);
+        };
+        write(small);
+        {
+            const SmallFiles limit(1000);
+            test::expect_problem([&] { write(large); }, path.string(), "cannot be written");
+        }
+        EXPECT_EQ(read_image(path).width, 4);
+    }
+    EXPECT_EQ(folder.size(), 2);
 }
 
 TEST(ImageFile, RefusesWrongPictures) {

@@ -43,6 +43,20 @@ TEST(Sheet, PlacesPicturesRowByRow) {
     };
     EXPECT_EQ(first_row_of(0.25f), first_row_of(0.5f));
     EXPECT_GT(first_row_of(0.75f), first_row_of(0.5f) + 89);
+    // Something of the background stands between pictures, and around them.
+    const int y = static_cast<int>(first_row_of(0.25f));
+    const float background = out.data[0];
+    int x = 0;
+    for (const float level : {0.25f, 0.5f}) {
+        EXPECT_EQ(*out.pixel(x, y), background);
+        while (x < out.width && *out.pixel(x, y) == background)
+            ++x;
+        ASSERT_LE(x + 120, out.width);
+        EXPECT_EQ(*out.pixel(x, y), level);
+        EXPECT_EQ(*out.pixel(x + 119, y), level);
+        x += 120;
+    }
+    EXPECT_EQ(*out.pixel(x, y), background);
     sheet.columns = 0;
     EXPECT_GT(draw_sheet(sheet).width, 3 * 120);
 }
