@@ -10,7 +10,7 @@
 namespace tsuya::test {
 namespace {
 
-constexpr int kPairs = 10000;
+constexpr int kPairs = 6000;
 constexpr int kEvaluations = 30000; // of a quadrature of f cos
 constexpr double kGrazingDeg[] = {85, 89, 89.9, 89.99};
 
@@ -166,7 +166,7 @@ Check check_albedo_of_view(const AnyBrdf &brdf, double tolerance, int evaluation
 Draws draw(const AnyBrdf &brdf, bool adjoint, const glm::vec3 &fixed, int samples,
            std::uint64_t seed) {
     const HemisphereBins bins;
-    const int evaluations = std::max(100000, 3 * samples);
+    const int evaluations = std::max(80000, 3 * samples);
     const auto density = [&](const glm::vec3 &d) -> double {
         return adjoint ? brdf.pdf_adjoint(fixed, d) : brdf.pdf(d, fixed);
     };
