@@ -13,7 +13,7 @@ glm::dmat3 bradford() {
         glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));
 }
 
-// [Li] CAT02, the transform of CIECAM02, rows as printed.
+// [CIE159] CAT02, the transform of CIECAM02, rows as printed.
 glm::dmat3 cat02() {
     return glm::transpose(
         glm::dmat3(0.7328, 0.4296, -0.1624, -0.7036, 1.6975, 0.0061, 0.0030, 0.0136, 0.9834));

@@ -33,7 +33,7 @@ TEST(Adaptation, BradfordHasPublishedValues) {
 }
 
 TEST(Adaptation, Cat02HasPublishedCones) {
-    // [Li] the cones of a white come out by the printed matrix: scaling blue alone moves only the
+    // [CIE159] the cones of a white come out by the printed matrix: scaling blue alone moves only the
     // third cone, so column sums of the matrix show in the adapted colour.
     const glm::dvec3 e(1.0), blue(1.0, 1.0, 2.0);
     const glm::dmat3 m = adaptation_matrix(Adaptation::cat02, blue, e);

@@ -22,7 +22,7 @@ Adaptation parse_adaptation(std::string_view name);
 std::string to_string(Adaptation adaptation);
 
 /// The matrix (GLM: column-major) that takes XYZ under `from_white` to XYZ under `to_white`, in von
-/// Kries' form: cones of both whites by the matrix of [Lam] or [Li], cone by cone scaled, back.
+/// Kries' form: cones of both whites by the matrix of [Lam] or [CIE159], cone by cone scaled, back.
 /// Maps `from_white` on `to_white`; the identity for `none`. Whites are XYZ with Y > 0. Throws
 /// Error if a cone signal of `from_white` is not positive.
 glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white,
