@@ -67,4 +67,15 @@ float AlbedoTable::at(const glm::vec3 &direction) const {
 
 float AlbedoTable::maximum() const { return *std::max_element(value_.begin(), value_.end()); }
 
+float AlbedoTable::cosine_above(float value) const {
+    const auto last =
+        std::find_if(value_.rbegin(), value_.rend(), [&](float v) { return v > value; });
+    if (last == value_.rend())
+        return 0;
+    // Interpolation carries the row's excess up to the next
+    const auto row = static_cast<int>(value_.rend() - last - 1) / columns_ + 1;
+    const float root = static_cast<float>(row) / (kRows - 1);
+    return row < kRows ? root * root : 2.0f;
+}
+
 } // namespace tsuya

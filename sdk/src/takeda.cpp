@@ -75,18 +75,19 @@ void TakedaBrdf::tabulate_albedos(Symmetry symmetry) {
                 sum += s->weight;
         return static_cast<float>(sum / kAlbedoSamples);
     };
-    // unlimited_albedo_ is 0 still: this is the albedo before the limit
+    // limited_below_ is 0 still: this is the albedo before the limit
     light_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_light) {
         return mean_weight([&](const glm::vec3 &u) { return sample_adjoint(to_light, u); });
     });
     unlimited_albedo_ = light_albedo_.maximum();
+    limited_below_ = light_albedo_.cosine_above(1);
     view_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_viewer) {
         return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); });
     });
 }
 
 float TakedaBrdf::limit(const glm::vec3 &to_light) const {
-    return unlimited_albedo_ > 1 ? 1 / std::max(1.0f, light_albedo_.at(to_light)) : 1.0f;
+    return to_light.z < limited_below_ ? 1 / std::max(1.0f, light_albedo_.at(to_light)) : 1.0f;
 }
 
 TakedaBrdf::Terms TakedaBrdf::terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {

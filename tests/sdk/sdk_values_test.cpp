@@ -272,6 +272,14 @@ TEST(AlbedoTable, MeetsAFunctionThatIsSteepAtGrazingUnderEverySymmetry) {
     EXPECT_EQ(a.at({0, 0, 1}), 0);
     EXPECT_NEAR(a.at({1, 0, 0}), 2, 0.03);
     EXPECT_NEAR(a.maximum(), 2, 0.03);
+    EXPECT_EQ(a.cosine_above(3), 0);
+    EXPECT_GT(a.cosine_above(-1), 1);
+    for (const float value : {0.1f, 0.5f, 1.0f, 1.5f}) {
+        const float cosine = a.cosine_above(value);
+        const float sine = std::sqrt(1 - cosine * cosine);
+        EXPECT_LE(a.at({sine, 0, cosine}), value);
+        EXPECT_GT(a.at({std::sqrt(1 - 0.7f * cosine * 0.7f * cosine), 0, 0.7f * cosine}), value);
+    }
 }
 
 TEST(Surface, BrokenOnesAreRefusedWithTheirPlace) {

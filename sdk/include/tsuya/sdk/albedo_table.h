@@ -21,6 +21,8 @@ class AlbedoTable {
     /// \param direction unit, z >= 0
     float at(const glm::vec3 &direction) const;
     float maximum() const;
+    /// Nowhere at or above this cosine is the table above `value`; 0 where it never is.
+    float cosine_above(float value) const;
 
   private:
     Symmetry symmetry_ = Symmetry::orthotropic;

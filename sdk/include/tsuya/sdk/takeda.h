@@ -55,7 +55,8 @@ class TakedaBrdf {
     Distribution2D density_{};   ///< proportional to rho0 cos theta0, on the square of the disk
     AlbedoTable light_albedo_{}; ///< before the limit
     AlbedoTable view_albedo_{};
-    float unlimited_albedo_ = 0; ///< 0 while there is no table of it
+    float unlimited_albedo_ = 0;
+    float limited_below_ = 0; ///< cosine of the light from which on nothing is limited
 };
 
 } // namespace tsuya
