@@ -87,40 +87,63 @@ TEST(Seams, SlitsAreClosed) {
 TEST(Seams, PleatsAreJoinedInPairsOfLayers) {
     // The lower panel runs forward, back and forward again along one edge of the upper.
     PolygonMesh pleated;
-    const double x[] = {0.0, 0.1, 0.2, 0.1, 0.0, 0.1, 0.2, 0.3};
-    for (int i = 0; i < 8; ++i) {
-        pleated.position.emplace_back(x[i], 0.0, 1e-4 * (i / 3));
-        pleated.position.emplace_back(x[i], -0.1, 0.01 * i);
+    const int x[] = {0, 1, 2, 3, 4, 5, 4, 3, 2, 1, 2, 3, 4, 5, 6};
+    constexpr int kColumns = 15;
+    for (int i = 0; i < kColumns; ++i) {
+        pleated.position.emplace_back(0.1 * x[i], 0.0, 0.0);
+        pleated.position.emplace_back(0.1 * x[i], -0.1, 0.05 * std::sin(10.0 * i));
         pleated.uv.emplace_back(0.1 * i, 0.1);
         pleated.uv.emplace_back(0.1 * i, 0.0);
     }
-    for (std::uint32_t i = 0; i < 7; ++i) {
+    for (std::uint32_t i = 0; i + 1 < kColumns; ++i) {
         const std::uint32_t a = 2 * i;
         const auto t = static_cast<std::int32_t>(a);
         pleated.add_face({a + 1, a + 3, a + 2, a}, {t + 1, t + 3, t + 2, t}, 0);
     }
-    const Prepared p = prepare(both(panel(3, 2, 0.1), pleated));
+    const Prepared p = prepare(both(panel(6, 2, 0.1), pleated));
     EXPECT_EQ(p.report.parts, 1u);
     EXPECT_EQ(p.report.joined.detached_faces, 0u);
-    EXPECT_GE(p.report.joined.non_manifold_edges, 2u);
+    EXPECT_EQ(p.report.joined.non_manifold_edges, 4u);
     EXPECT_TRUE(keys(p.report).contains("layered_seams"));
-    // Nothing stays open along the seam.
-    for (const BoundaryLoop &loop : p.report.openings)
-        EXPECT_GT(loop.length, 0.5);
+    // Only the outline stays open, nothing along the seam.
+    ASSERT_EQ(p.report.openings.size(), 1u);
+    EXPECT_EQ(p.report.openings[0].edges, 6u + 2 * 2 + 2 + (kColumns - 1));
+}
+
+TEST(Seams, AFoldOneEdgeDeepStaysAFold) {
+    // Two seam vertices that become one share the neighbour 5: two edges would become one.
+    PolygonMesh fold;
+    fold.position = {{0, 0, 0},   {0.1, 0, 0},    {0.1, -0.03, 0.03}, {0.1, 0, 1e-4},
+                     {0.2, 0, 0}, {0.1, -0.1, 0}, {0, -0.1, 0},       {0.2, -0.1, 0}};
+    for (const auto &f : {std::vector<std::uint32_t>{0, 6, 5},
+                          {0, 5, 1},
+                          {1, 5, 2},
+                          {2, 5, 3},
+                          {3, 5, 4},
+                          {5, 7, 4}})
+        fold.add_face(f, {-1, -1, -1}, 0);
+    const Prepared p = prepare(both(triangulated(panel(2, 2, 0.1)), fold));
+    EXPECT_EQ(p.report.parts, 1u);
+    EXPECT_EQ(p.report.joined.detached_faces, 0u);
+    EXPECT_EQ(p.report.openings.size(), 1u);
 }
 
 TEST(Seams, TheLimitSurfaceClosesBitExactly) {
-    const PolygonMesh two = both(panel(4, 3, 0.1), panel(4, 3, 0.1, {0.4002, 0, 0}));
-    LimitMesh limit = subdivide(prepare(two).mesh, {.level = 2});
-    std::size_t seam = 0;
-    for (std::size_t v = 0; v < limit.place.size(); ++v) {
-        const std::uint32_t p = limit.place[v];
-        seam += p != v;
-        EXPECT_EQ(limit.position[v], limit.position[p]);
-        EXPECT_EQ(limit.normal[v], limit.normal[p]);
-        EXPECT_EQ(limit.uv[v] == limit.uv[p], p == v);
+    PolygonMesh two = both(panel(4, 3, 0.1), panel(4, 3, 0.1, {0.4002, 0, 0}));
+    for (glm::dvec3 &p : two.position)
+        p += 0.05 * glm::dvec3(std::sin(13.0 * p.y), std::sin(11.0 * p.y), std::sin(7.0 * p.y));
+    for (const PolygonMesh &mesh : {two, triangulated(two)}) {
+        const LimitMesh limit = subdivide(prepare(mesh).mesh, {.level = 2});
+        std::size_t seam = 0;
+        for (std::size_t v = 0; v < limit.place.size(); ++v) {
+            const std::uint32_t p = limit.place[v];
+            seam += p != v;
+            EXPECT_EQ(limit.position[v], limit.position[p]);
+            EXPECT_EQ(limit.normal[v], limit.normal[p]);
+            EXPECT_EQ(limit.uv[v] == limit.uv[p], p == v);
+        }
+        EXPECT_EQ(seam, 3u * 4 + 1);
     }
-    EXPECT_EQ(seam, 3u * 4 + 1);
 }
 
 TEST(Manifold, CountsWhatItDrops) {

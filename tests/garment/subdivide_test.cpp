@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <random>
+#include <set>
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -136,6 +137,29 @@ TEST(Subdivide, SharesVerticesAlongEdges) {
         const LimitMesh closed = subdivide(test::cube(), {.level = level});
         EXPECT_EQ(closed.position.size(), 6 * rate * rate + 2);
         EXPECT_TRUE(closed.uv.empty());
+    }
+}
+
+TEST(Subdivide, TrianglesCoverTheSurfaceOnce) {
+    // On a flat panel, all triangles look up and their areas add up.
+    const LimitMesh flat = subdivide(test::panel(3, 2, 0.1), {.level = 3});
+    double area = 0.0;
+    for (const glm::uvec3 &t : flat.triangle) {
+        const glm::dvec3 a = flat.position[t.x];
+        const double twice = glm::cross(flat.position[t.y] - a, flat.position[t.z] - a).z;
+        EXPECT_GT(twice, 0.0);
+        area += 0.5 * twice;
+    }
+    EXPECT_NEAR(area, 0.06, 1e-9);
+    // On a closed surface, every edge has its counterpart.
+    std::multiset<std::pair<std::uint32_t, std::uint32_t>> edges;
+    const LimitMesh closed = subdivide(cut_cube(), {.level = 2});
+    for (const glm::uvec3 &t : closed.triangle)
+        for (int c = 0; c < 3; ++c)
+            edges.emplace(t[c], t[(c + 1) % 3]);
+    for (const auto &[a, b] : edges) {
+        EXPECT_EQ(edges.count({a, b}), 1u);
+        EXPECT_EQ(edges.count({b, a}), 1u);
     }
 }
 
