@@ -91,8 +91,8 @@ void Console::warnings(const garment::Report &report, const std::string &file) {
     for (const garment::Finding &finding : report.findings)
         if (finding.severity == garment::Severity::warning)
             warning(file + ": " + finding.what +
-                    (finding.where.empty() ? "" : " (" + finding.where + ")") + "; " +
-                    finding.action);
+                    (finding.where.empty() ? "" : " (" + finding.where + ")") +
+                    (finding.action.empty() ? "" : "; " + finding.action));
 }
 
 } // namespace tsuya::program

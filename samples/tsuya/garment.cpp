@@ -1,9 +1,104 @@
+// tsuya garment: what is wrong with a mesh, and its limit surface.
+
+#include <algorithm>
+#include <iostream>
+
 #include "command.h"
+#include "json_file.h"
+#include "tsuya/garment/check.h"
+#include "tsuya/garment/garment.h"
+#include "tsuya/garment/obj.h"
+#include "tsuya/scene/output_file.h"
+
 namespace tsuya::program {
-class Stub_garment final : public Command {
+namespace {
+
+class GarmentCommand final : public Command {
   public:
-    bool called() const override { return false; }
-    Status run(Console &) override { return kDone; }
+    explicit GarmentCommand(CLI::App &program)
+        : app_(*program.add_subcommand("garment", "Examine and subdivide meshes")),
+          check_(*app_.add_subcommand("check", "What is wrong with a mesh")),
+          subdivide_(*app_.add_subcommand("subdivide", "The limit surface of a mesh")) {
+        app_.require_subcommand(1);
+        app_.footer("Example:\n  tsuya garment check dress.obj --strict");
+        check_.footer("Example:\n  tsuya garment check dress.obj --strict\n"
+                      "With --strict, a warning gives exit status 4.");
+        subdivide_.footer("Example:\n  tsuya garment subdivide dress.obj -o fine.obj --level 2");
+        for (CLI::App *app : {&check_, &subdivide_}) {
+            app->add_option("mesh", mesh_, "MESH.obj")->required();
+            app->add_option("--unit", unit_, "Of the mesh: m, dm, cm, mm, in")
+                ->capture_default_str();
+        }
+        check_.add_flag("--json", json_, "The report as JSON");
+        check_.add_flag("--strict", strict_, "Fail where there is a warning");
+        subdivide_.add_option("-o,--output", output_, "OUT.obj")->required();
+        subdivide_.add_option("--level", level_, "Cuts each edge into 2^level")
+            ->check(CLI::Range(0, 8))
+            ->capture_default_str();
+    }
+
+    bool called() const override { return app_.parsed(); }
+
+    Status run(Console &console) override { return check_.parsed() ? check() : subdivide(console); }
+
+  private:
+    Status check() const {
+        const double metres = garment::metres_per(unit_);
+        garment::PolygonMesh mesh = garment::read_obj(mesh_);
+        for (glm::dvec3 &p : mesh.position)
+            p *= metres;
+        const garment::Report report = garment::check(mesh);
+        if (json_)
+            std::cout << json_of(report).dump(2) << "\n";
+        else
+            print(report);
+        const bool warned =
+            std::any_of(report.findings.begin(), report.findings.end(), [](const auto &finding) {
+                return finding.severity == garment::Severity::warning;
+            });
+        return strict_ && warned ? kCheckFailed : kDone;
+    }
+
+    Status subdivide(Console &console) const {
+        const garment::Options options{.metres_per_unit = garment::metres_per(unit_),
+                                       .subdivide = {.level = level_}};
+        const garment::LoadedGarment loaded = garment::load(mesh_, options, console.progress());
+        console.warnings(loaded.report, mesh_.string());
+        scene::prepare_output_file(output_, {".obj"});
+        garment::write_obj(output_, loaded.surface);
+        std::cout << output_.string() << "\n";
+        return kDone;
+    }
+
+    void print(const garment::Report &r) const {
+        const glm::dvec3 size = r.upper - r.lower;
+        std::cout << mesh_.string() << "\n  " << r.faces << " faces (" << r.triangles
+                  << " triangles, " << r.quads << " quads, " << r.ngons << " larger), "
+                  << r.vertices << " vertices, " << r.uvs << " UVs\n  " << r.panels << " panels, "
+                  << r.parts << " parts after joining " << r.parts_before << ", "
+                  << r.openings.size() << " openings\n  " << size.x << " x " << size.y << " x "
+                  << size.z << " m, area " << r.area << " m2\n";
+        for (const garment::Finding &f : r.findings)
+            std::cout << (f.severity == garment::Severity::warning ? "warning " : "note ") << f.key
+                      << ": " << f.what << (f.where.empty() ? "" : " (" + f.where + ")")
+                      << (f.action.empty() ? "" : "; " + f.action) << "\n";
+        if (r.findings.empty())
+            std::cout << "nothing is wrong\n";
+    }
+
+    CLI::App &app_;
+    CLI::App &check_;
+    CLI::App &subdivide_;
+    std::filesystem::path mesh_{}, output_{};
+    std::string unit_ = "m";
+    int level_ = 1;
+    bool json_ = false, strict_ = false;
 };
-std::unique_ptr<Command> make_garment(CLI::App &) { return std::make_unique<Stub_garment>(); }
+
+} // namespace
+
+std::unique_ptr<Command> make_garment(CLI::App &program) {
+    return std::make_unique<GarmentCommand>(program);
+}
+
 } // namespace tsuya::program

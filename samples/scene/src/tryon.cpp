@@ -25,10 +25,10 @@ constexpr double kBodyReflectance = 0.25;
 constexpr double kBackdropReflectance = 0.18;
 constexpr double kElevation = 3 * kDegree;    // of the camera
 constexpr double kAngleOfView = 24 * kDegree; // an 85 mm lens on 36 mm film
-constexpr double kKeyAzimuth = -62 * kDegree; // from the camera to the left
-constexpr double kKeyElevation = 32 * kDegree;
+constexpr double kKeyAzimuth = -72 * kDegree; // from the camera to the left
+constexpr double kKeyElevation = 28 * kDegree;
 constexpr double kKeyStrength = 1.0;
-constexpr double kFillRadiance = 0.22;
+constexpr double kFillRadiance = 0.12;
 
 /// A dye with the name that its files bear.
 struct NamedDye {
@@ -76,8 +76,8 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
     scene.rectangles = {make_light(
         {.centre = middle + 1.5 * size * direction_of(azimuth + kKeyAzimuth, kKeyElevation),
          .target = middle,
-         .width = 0.55 * size,
-         .height = 0.8 * size,
+         .width = 0.4 * size,
+         .height = 0.9 * size,
          .strength = kKeyStrength,
          .group = {0}})};
     scene.environment = Environment{.radiance = kFillRadiance, .group = {1}, .visible = true};
@@ -90,6 +90,18 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
                                .height = 4 * size,
                                .radius = 0.8 * size}),
                {.name = "backdrop", .dye = Spectrum::constant(kBackdropReflectance)});
+}
+
+/// Turns the picture `object`, where the garment is 1, into the garment's coverage: 1 where every
+/// sample met it, else 0.
+void keep_coverage(SpectralImage &image) {
+    for (std::size_t i = 0; i < image.aovs.size(); ++i)
+        if (image.aov_names[i] == "object") {
+            image.aov_names[i] = "coverage";
+            image.aovs[i].channels = {"A"};
+            for (float &v : image.aovs[i].data)
+                v = v == 1.0f ? 1.0f : 0.0f;
+        }
 }
 
 void write_pictures(const SpectralImage &image, const std::string &name,
@@ -155,6 +167,8 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     TryOnScene made = make_try_on_scene(job, progress);
     prepare_output_folder(job.output);
 
+    RenderSettings settings = job.render;
+    settings.aovs = {"object"};
     TryOnResult result{.report = std::move(made.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
     for (std::size_t i = 0; i < dyes.size() && !result.interrupted; ++i) {
@@ -165,7 +179,8 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
         };
         if (dyes[i].spectrum)
             made.scene.fabrics[0].dye = *dyes[i].spectrum;
-        const RenderResult rendered = render(made.scene, job.render, part);
+        RenderResult rendered = render(made.scene, settings, part);
+        keep_coverage(rendered.image);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;
         write_pictures(rendered.image, dyes[i].name, lamps, job, sheet, result);

@@ -1,0 +1,92 @@
+#pragma once
+/// \file
+/// Scene files: TOML in, Scene out. samples/README.md has every key.
+///
+///     const SceneFile file = read_scene_file("dress.scene.toml");
+///     const BuiltScene built = build_scene(file);
+///     const RenderResult result = render(built.scene, file.render);
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tsuya/color/config.h"
+#include "tsuya/garment/garment.h"
+#include "tsuya/scene/picture.h"
+#include "tsuya/scene/studio.h"
+#include "tsuya/sdk/render.h"
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya::scene {
+
+/// `[fabrics.NAME]`
+struct FabricEntry {
+    std::string name{};
+    std::filesystem::path file{};  ///< empty: a plain diffuser
+    std::optional<Spectrum> dye{}; ///< empty: the file's own, or 0.5 for a plain diffuser
+    std::optional<double> f0{};
+};
+
+/// `[garments.NAME]` or `[bodies.NAME]`. Bodies have no yarn directions.
+struct MeshEntry {
+    std::string name{};
+    std::filesystem::path mesh{};
+    std::size_t fabric = 0; ///< into SceneFile::fabrics
+    garment::Options options{};
+    glm::dvec3 translate{0, 0, 0}; ///< metres
+    bool visible = true;
+};
+
+/// `[backdrop]`
+struct BackdropEntry {
+    Cyclorama shape{};
+    Spectrum reflectance = Spectrum::constant(0.18);
+};
+
+/// `[output]`: the pictures that are made from the light transport.
+struct OutputEntry {
+    std::vector<NamedLamp> lamps{}; ///< none: no picture
+    DisplayOptions look = default_look();
+};
+
+/// A scene as its author describes it, with every value in range. Paths are relative to the working
+/// directory.
+struct SceneFile {
+    std::filesystem::path path{};
+    std::optional<Camera> camera{}; ///< empty: framed, see below
+    Framing framing{};              ///< of all visible garments and bodies
+    std::vector<FabricEntry> fabrics{};
+    std::vector<MeshEntry> garments{};
+    std::vector<MeshEntry> bodies{};
+    std::optional<BackdropEntry> backdrop{};
+    std::vector<std::string> light_groups{};
+    std::vector<RectangleLight> lights{};
+    std::optional<Environment> environment{};
+    RenderSettings render{};
+    OutputEntry output{};
+};
+
+/// Reads a scene file with what it names, but for the meshes. Throws Error with up to 20 problems
+/// at file:line:column: unknown keys, values of a wrong type or out of range, unknown names, files
+/// that are missing or wrong.
+SceneFile read_scene_file(const std::filesystem::path &path);
+
+/// What a mesh file is like.
+struct MeshReport {
+    std::filesystem::path mesh{};
+    garment::Report report{};
+};
+
+struct BuiltScene {
+    Scene scene{};
+    std::vector<MeshReport> reports{}; ///< one a visible mesh
+};
+
+/// Loads the meshes and puts the scene together. Throws Error as garment::load, read_fabric and
+/// check_scene; Interrupted where `progress` says stop.
+BuiltScene build_scene(const SceneFile &file, const Progress &progress = {});
+
+} // namespace tsuya::scene

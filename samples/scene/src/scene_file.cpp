@@ -1,0 +1,77 @@
+#include "tsuya/scene/scene_file.h"
+
+#include "scene_reader.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::scene {
+namespace {
+
+void add_object(Scene &scene, const std::string &name, Surface surface, std::size_t fabric) {
+    const auto index = static_cast<std::uint32_t>(scene.surfaces.size());
+    scene.surfaces.push_back(std::move(surface));
+    scene.objects.push_back({name, {index}, {static_cast<std::uint32_t>(fabric)}});
+}
+
+Fabric load_fabric(const FabricEntry &entry) {
+    Fabric fabric;
+    if (entry.file.empty())
+        fabric.dye = Spectrum::constant(kPlainReflectance);
+    else
+        fabric = read_fabric(entry.file);
+    fabric.name = entry.name;
+    if (entry.dye)
+        fabric.dye = *entry.dye;
+    if (entry.f0)
+        fabric.f0 = entry.f0;
+    return fabric;
+}
+
+} // namespace
+
+SceneFile read_scene_file(const std::filesystem::path &path) {
+    const Document document(path);
+    SceneFile file{.path = path};
+    SceneReader reader(document.root(), path.parent_path(), file);
+    reader.read();
+    document.finish();
+    return file;
+}
+
+BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
+    BuiltScene built;
+    Scene &scene = built.scene;
+    for (const FabricEntry &entry : file.fabrics)
+        scene.fabrics.push_back(load_fabric(entry));
+    std::vector<glm::dvec3> framed;
+    for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
+        for (const MeshEntry &entry : *entries) {
+            if (!entry.visible)
+                continue;
+            garment::LoadedGarment loaded = garment::load(entry.mesh, entry.options, progress);
+            for (glm::dvec3 &p : loaded.surface.position)
+                p += entry.translate;
+            framed.insert(framed.end(), loaded.surface.position.begin(),
+                          loaded.surface.position.end());
+            built.reports.push_back({entry.mesh, std::move(loaded.report)});
+            add_object(scene, entry.name, std::move(loaded.surface), entry.fabric);
+        }
+    if (file.backdrop) {
+        add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape), scene.fabrics.size());
+        scene.fabrics.push_back({.name = "backdrop", .dye = file.backdrop->reflectance});
+    }
+    scene.light_groups = file.light_groups;
+    scene.rectangles = file.lights;
+    scene.environment = file.environment;
+    scene.camera = file.camera ? *file.camera : frame_points(framed, file.framing);
+    try {
+        check_scene(scene);
+    } catch (const Error &error) {
+        std::vector<Problem> problems = error.problems();
+        for (Problem &problem : problems)
+            problem.where = file.path.string() + ": " + problem.where;
+        throw Error(std::move(problems));
+    }
+    return built;
+}
+
+} // namespace tsuya::scene

@@ -1,0 +1,51 @@
+#pragma once
+// From the sections of a scene file to a SceneFile. Problems are noted in the document.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tsuya/scene/scene_file.h"
+#include "tsuya/sdk/document.h"
+
+namespace tsuya::scene {
+
+// Of a fabric without a file and a dye.
+inline constexpr double kPlainReflectance = 0.5;
+
+class SceneReader {
+  public:
+    SceneReader(Section root, std::filesystem::path folder, SceneFile &file)
+        : root_(root), folder_(std::move(folder)), file_(file) {}
+
+    void read();
+
+  private:
+    void read_camera();
+    void read_framing(const Section &camera);
+    void read_fabrics();
+    void read_meshes(const char *kind, bool yarn, std::vector<MeshEntry> &entries);
+    void read_cloth(const Section &section, MeshEntry &entry);
+    void read_grain(const Section &grain, MeshEntry &entry);
+    void read_backdrop();
+    void read_lights();
+    void read_light(const std::string &name, const Section &section);
+    void read_environment();
+    void read_render();
+    void read_output();
+
+    // Index of a light group by name, made where it is new.
+    LightGroupIndex group(const Section &section, const std::string &otherwise);
+    // `dye` or `reflectance`.
+    std::optional<Spectrum> reflectance(const Section &section);
+    std::filesystem::path existing_file(const Section &section, std::string_view key,
+                                        bool required);
+    // Runs `work`; an Error becomes a problem at the key.
+    template <class Work> void note(const Section &section, std::string_view key, Work &&work);
+
+    Section root_;
+    std::filesystem::path folder_;
+    SceneFile &file_;
+};
+
+} // namespace tsuya::scene

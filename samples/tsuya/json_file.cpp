@@ -1,0 +1,96 @@
+#include "json_file.h"
+
+#include "tsuya/sdk/file.h"
+
+namespace tsuya::program {
+namespace {
+
+Json json_of(const glm::dvec3 &v) { return {v.x, v.y, v.z}; }
+
+Json json_of(const garment::Percentiles &p) {
+    return {{"p5", p.p5}, {"p50", p.p50}, {"p95", p.p95}};
+}
+
+Json json_of(const garment::ManifoldReport &m) {
+    return {{"degenerate_faces", m.degenerate_faces},
+            {"duplicate_faces", m.duplicate_faces},
+            {"non_manifold_edges", m.non_manifold_edges},
+            {"non_manifold_vertices", m.non_manifold_vertices},
+            {"flipped_faces", m.flipped_faces},
+            {"unorientable_edges", m.unorientable_edges},
+            {"isolated_vertices", m.isolated_vertices}};
+}
+
+Json json_of(const garment::SeamReport &s) {
+    return {{"tolerance", s.tolerance},
+            {"boundary_before", s.boundary_before},
+            {"boundary_after", s.boundary_after},
+            {"joined", s.joined},
+            {"splits", s.splits},
+            {"largest_gap", s.largest_gap},
+            {"unresolved", s.unresolved}};
+}
+
+Json json_of(const std::vector<garment::Finding> &findings) {
+    Json list = Json::array();
+    for (const garment::Finding &f : findings)
+        list.push_back({{"severity", f.severity == garment::Severity::warning ? "warning" : "note"},
+                        {"key", f.key},
+                        {"what", f.what},
+                        {"where", f.where},
+                        {"action", f.action}});
+    return list;
+}
+
+} // namespace
+
+Json json_of(const RenderStats &stats) {
+    return {{"schema", "tsuya-render-stats 1"},
+            {"samples_per_pixel", stats.samples_per_pixel},
+            {"seconds", stats.seconds},
+            {"build_seconds", stats.build_seconds},
+            {"relative_error", stats.relative_error},
+            {"rays", stats.rays},
+            {"not_finite", stats.not_finite},
+            {"triangles", stats.triangles},
+            {"interrupted", stats.interrupted}};
+}
+
+Json json_of(const garment::Report &r) {
+    Json openings = Json::array();
+    for (const garment::BoundaryLoop &loop : r.openings)
+        openings.push_back(
+            {{"edges", loop.edges}, {"length", loop.length}, {"centre", json_of(loop.centre)}});
+    return {{"schema", "tsuya-garment-check 1"},
+            {"vertices", r.vertices},
+            {"uvs", r.uvs},
+            {"faces", r.faces},
+            {"triangles", r.triangles},
+            {"quads", r.quads},
+            {"ngons", r.ngons},
+            {"panels", r.panels},
+            {"parts", r.parts},
+            {"parts_before", r.parts_before},
+            {"loops_before", r.loops_before},
+            {"openings", openings},
+            {"file", json_of(r.file)},
+            {"joined", json_of(r.joined)},
+            {"seams", json_of(r.seams)},
+            {"uv_islands", r.uv_islands},
+            {"mirrored_islands", r.mirrored_islands},
+            {"mirrored_faces", r.mirrored_faces},
+            {"faces_without_uv", r.faces_without_uv},
+            {"faces_without_uv_area", r.faces_without_uv_area},
+            {"metres_per_uv_weft", json_of(r.metres_per_uv_weft)},
+            {"metres_per_uv_warp", json_of(r.metres_per_uv_warp)},
+            {"lower", json_of(r.lower)},
+            {"upper", json_of(r.upper)},
+            {"area", r.area},
+            {"findings", json_of(r.findings)}};
+}
+
+void write_json(const std::filesystem::path &file, const Json &json) {
+    write_file(file, json.dump(2) + "\n");
+}
+
+} // namespace tsuya::program

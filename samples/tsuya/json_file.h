@@ -1,0 +1,23 @@
+#pragma once
+// What commands tell machines.
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "tsuya/garment/report.h"
+#include "tsuya/sdk/render.h"
+
+namespace tsuya::program {
+
+using Json = nlohmann::ordered_json;
+
+/// `tsuya-render-stats 1`
+Json json_of(const RenderStats &stats);
+/// `tsuya-garment-check 1`
+Json json_of(const garment::Report &report);
+
+/// Throws Error if the file cannot be written.
+void write_json(const std::filesystem::path &file, const Json &json);
+
+} // namespace tsuya::program
