@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 
+#include "fast_trig.h"
+
 namespace tsuya {
 
 // Direction with z >= 0 to the unit disk: radius sqrt(2) sin(theta/2), area 1/(2) per sr.
@@ -23,26 +25,22 @@ inline glm::vec2 disk_of_square(const glm::vec2 &u) {
     const float a = 2.0f * u.x - 1.0f, b = 2.0f * u.y - 1.0f;
     if (a == 0 && b == 0)
         return {0, 0};
-    if (std::abs(a) > std::abs(b)) {
-        const float phi = kQuarterPi * (b / a);
-        return {a * std::cos(phi), a * std::sin(phi)};
-    }
-    const float phi = kQuarterPi * (a / b);
-    return {b * std::sin(phi), b * std::cos(phi)};
+    const bool wide = std::abs(a) > std::abs(b);
+    const float radius = wide ? a : b, phi = kQuarterPi * (wide ? b / a : a / b);
+    const SineCosine turned = sine_cosine(std::abs(phi));
+    const float along = radius * turned.cosine, across = radius * std::copysign(turned.sine, phi);
+    return wide ? glm::vec2(along, across) : glm::vec2(across, along);
 }
 
 inline glm::vec2 square_of_disk(const glm::vec2 &p) {
     constexpr float kFourOverPi = 1.27323954f;
     const float r = std::fmin(glm::length(p), 1.0f);
-    float a, b;
-    if (std::abs(p.x) > std::abs(p.y)) {
-        a = std::copysign(r, p.x);
-        b = a * kFourOverPi * std::atan(p.y / p.x);
-    } else {
-        b = std::copysign(r, p.y);
-        a = p.y == 0 ? 0.0f : b * kFourOverPi * std::atan(p.x / p.y);
-    }
-    return {0.5f * (a + 1.0f), 0.5f * (b + 1.0f)};
+    const float x = std::abs(p.x), y = std::abs(p.y);
+    // The larger coordinate becomes the radius, the other the angle from it
+    const bool steep = y >= x;
+    const float b = r * kFourOverPi * (steep ? angle_of(x, y) : angle_of(y, x));
+    const float u = std::copysign(steep ? b : r, p.x), v = std::copysign(steep ? r : b, p.y);
+    return {0.5f * (u + 1.0f), 0.5f * (v + 1.0f)};
 }
 
 } // namespace tsuya

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fast_trig.h"
+
 namespace tsuya {
 namespace {
 
@@ -23,7 +25,7 @@ Axis axis_of(const glm::vec3 &to_light) {
     if (!(horizontal > 0))
         return {};
     return {{-to_light.x / horizontal, -to_light.y / horizontal, 0},
-            std::min(std::atan2(horizontal, to_light.z), kHalfPi)};
+            std::min(angle_of(horizontal, to_light.z), kHalfPi)};
 }
 
 // a/(a - theta_i) towards R, a/(a + theta_i) on the light's side
@@ -38,7 +40,9 @@ GreatCircle to_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     const float cosine = glm::dot(axis.away, to_viewer);
     const glm::vec3 across = to_viewer - cosine * axis.away;
     const float sine = glm::length(across);
-    c.beta = std::atan2(sine, cosine);
+    c.beta = angle_of(sine, cosine);
+    c.sine = sine;
+    c.tilt = axis.tilt;
     // [Takeda] Eq. 15
     if (c.beta <= kHalfPi - axis.tilt) {
         c.slope = slope_towards(axis.tilt);
@@ -48,8 +52,9 @@ GreatCircle to_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
         // = slope * beta + pi theta_i/(a + theta_i), exact at beta = pi
         c.beta0 = kPi - c.slope * (kPi - c.beta);
     }
-    c.sine_ratio = sine > kSmallSine ? std::sin(c.beta0) / sine : c.slope;
-    c.basic = std::cos(c.beta0) * axis.away + c.sine_ratio * across;
+    const SineCosine turned = sine_cosine(c.beta0);
+    c.sine_ratio = sine > kSmallSine ? turned.sine / sine : c.slope;
+    c.basic = turned.cosine * axis.away + c.sine_ratio * across;
     c.basic.z = std::max(c.basic.z, 0.0f);
     return c;
 }
@@ -60,12 +65,13 @@ ViewOfBasic view_of_basic(const glm::vec3 &to_light, const glm::vec3 &basic) {
     const float cosine = glm::dot(axis.away, basic);
     const glm::vec3 across = basic - cosine * axis.away;
     const float sine = glm::length(across);
-    const float beta0 = std::atan2(sine, cosine);
+    const float beta0 = angle_of(sine, cosine);
     v.slope = beta0 <= kHalfPi ? slope_towards(axis.tilt) : slope_behind(axis.tilt);
     const float beta = beta0 <= kHalfPi ? beta0 / v.slope : kPi - (kPi - beta0) / v.slope;
-    const float ratio = sine > kSmallSine ? std::sin(beta) / sine : 1 / v.slope;
+    const SineCosine turned = sine_cosine(beta);
+    const float ratio = sine > kSmallSine ? turned.sine / sine : 1 / v.slope;
     v.sine_ratio = 1 / std::max(ratio, 1e-12f);
-    v.to_viewer = std::cos(beta) * axis.away + ratio * across;
+    v.to_viewer = turned.cosine * axis.away + ratio * across;
     return v;
 }
 
@@ -77,32 +83,30 @@ std::optional<glm::vec3> light_of_basic(const glm::vec3 &to_viewer, const glm::v
     const glm::vec3 away(r / length, 0);
     const auto angle = [&](const glm::vec3 &d) {
         const float cosine = glm::dot(away, d);
-        return std::atan2(glm::length(d - cosine * away), cosine);
+        return angle_of(glm::length(d - cosine * away), cosine);
     };
     const float beta = angle(to_viewer), beta0 = angle(basic);
     const float tilt = beta0 <= kHalfPi ? kHalfPi * (1 - beta / std::max(beta0, 1e-12f))
                                         : kHalfPi * (beta0 - beta) / std::max(kPi - beta0, 1e-12f);
     if (!(tilt >= 0 && tilt < kHalfPi))
         return std::nullopt;
-    const glm::vec3 to_light = -std::sin(tilt) * away + glm::vec3(0, 0, std::cos(tilt));
+    const SineCosine tilted = sine_cosine(tilt);
+    const glm::vec3 to_light = -tilted.sine * away + glm::vec3(0, 0, tilted.cosine);
     return to_light.z > 0 ? std::optional(to_light) : std::nullopt;
 }
 
 float jacobian_of_light(const GreatCircle &c, const glm::vec3 &to_light,
                         const glm::vec3 &to_viewer) {
-    const float horizontal = std::sqrt(to_light.x * to_light.x + to_light.y * to_light.y);
-    const float tilt = std::atan2(horizontal, to_light.z);
-    const bool towards = c.beta <= kHalfPi - tilt;
-    const float turn =
-        towards ? c.beta0 / std::max(kHalfPi - tilt, 1e-7f) : (kPi - c.beta0) / (kHalfPi + tilt);
-    // (beta0 - beta)/theta_i, which stays finite for light from straight above
-    const float rate =
-        towards ? c.beta / std::max(kHalfPi - tilt, 1e-7f) : (kPi - c.beta) / (kHalfPi + tilt);
-    const float sines = tilt > kSmallTilt ? std::sin(rate * tilt) / horizontal : rate;
-    const float sine = std::sin(c.beta);
-    if (!(sine > kSmallSine))
+    if (!(c.sine > kSmallSine))
         return 0;
-    return turn * sines * to_viewer.z / (sine * sine);
+    const bool towards = c.beta <= kHalfPi - c.tilt;
+    const float span = towards ? std::max(kHalfPi - c.tilt, 1e-7f) : kHalfPi + c.tilt;
+    const float turn = (towards ? c.beta0 : kPi - c.beta0) / span; // dbeta0/dtheta_i
+    // (beta0 - beta)/theta_i, which stays finite for light from straight above
+    const float rate = (towards ? c.beta : kPi - c.beta) / span;
+    const float horizontal = std::sqrt(to_light.x * to_light.x + to_light.y * to_light.y);
+    const float sines = c.tilt > kSmallTilt ? sine_cosine(rate * c.tilt).sine / horizontal : rate;
+    return turn * sines * to_viewer.z / (c.sine * c.sine);
 }
 
 } // namespace tsuya

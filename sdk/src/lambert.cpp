@@ -37,6 +37,11 @@ float LambertBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) co
     return evaluate_cos(to_light, to_viewer);
 }
 
+WeighedLight LambertBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    const float f_cos = evaluate_cos(to_light, to_viewer);
+    return {f_cos, f_cos};
+}
+
 float LambertBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     return evaluate_cos(to_viewer, to_light);
 }

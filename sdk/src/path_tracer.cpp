@@ -35,18 +35,16 @@ template <int K> struct PathTracer<K>::Vertex {
     // f cos and pdf of a light above the geometric surface. Directions that the shading normal's
     // hemisphere has below that surface are folded back above it, so that no energy is lost and
     // none leaks through.
-    Response evaluate(const glm::vec3 &to_light, float &pdf) const {
-        const glm::vec3 direct = point.frame.to_local(to_light);
-        Response r = shading.evaluate_cos(direct, to_viewer, view);
-        pdf = shading.pdf(direct, to_viewer, view);
+    Shading::Weighed weigh(const glm::vec3 &to_light) const {
+        Shading::Weighed w = shading.weigh(point.frame.to_local(to_light), to_viewer, view);
         const glm::vec3 folded = point.frame.to_local(mirrored(to_light, point.geometric_normal));
         if (folded.z > 0) {
-            const Response more = shading.evaluate_cos(folded, to_viewer, view);
-            r.diffuse += more.diffuse;
-            r.specular += more.specular;
-            pdf += shading.pdf(folded, to_viewer, view);
+            const Shading::Weighed more = shading.weigh(folded, to_viewer, view);
+            w.f_cos.diffuse += more.f_cos.diffuse;
+            w.f_cos.specular += more.f_cos.specular;
+            w.pdf += more.pdf;
         }
-        return r;
+        return w;
     }
 
     void colour(const Response &r, float scale, Channels<K> &result) const {
@@ -73,9 +71,8 @@ void PathTracer<K>::light_directly(const Vertex &vertex, std::size_t light, floa
     if (!ray || !(ray->radiance > 0) ||
         !(glm::dot(ray->to_light, vertex.point.geometric_normal) > 0))
         return;
-    float pdf = 0;
-    const Response response = vertex.evaluate(ray->to_light, pdf);
-    if (!(response.diffuse + response.specular > 0))
+    const Shading::Weighed w = vertex.weigh(ray->to_light);
+    if (!(w.f_cos.diffuse + w.f_cos.specular > 0))
         return;
     ++rays_;
     if (p_.accelerator.occluded(origin, ray->to_light, ray->distance * kShadowReach))
@@ -83,7 +80,7 @@ void PathTracer<K>::light_directly(const Vertex &vertex, std::size_t light, floa
     // [Veach] balance heuristic
     const float light_pdf = ray->pdf * probability;
     Channels<K> f;
-    vertex.colour(response, ray->radiance / (light_pdf + pdf), f);
+    vertex.colour(w.f_cos, ray->radiance / (light_pdf + w.pdf), f);
     radiance[ray->group].add(f, throughput, 1.0f);
 }
 
@@ -159,15 +156,14 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         glm::vec3 next = point.frame.to_world(drawn->to_light);
         if (const float above = glm::dot(next, point.geometric_normal); !(above > 0))
             next = mirrored(next, point.geometric_normal);
-        Response response = drawn->response;
-        float pdf = drawn->pdf;
+        Shading::Weighed w{drawn->response, drawn->pdf};
         const glm::vec3 folded = point.frame.to_local(mirrored(next, point.geometric_normal));
         if (folded.z > 0)
-            response = vertex.evaluate(next, pdf);
-        if (!(pdf > 0))
+            w = vertex.weigh(next);
+        if (!(w.pdf > 0))
             return;
         Channels<K> f;
-        vertex.colour(response, 1 / pdf, f);
+        vertex.colour(w.f_cos, 1 / w.pdf, f);
         throughput.multiply(f);
         if (!(throughput.largest() > 0))
             return;
@@ -176,7 +172,7 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         direction = next;
         ++rays_;
         const bool found = p_.accelerator.intersect(origin, direction, kInfinity, hit);
-        meet_lights(origin, direction, found ? hit.distance : kInfinity, !found, pdf, depth,
+        meet_lights(origin, direction, found ? hit.distance : kInfinity, !found, w.pdf, depth,
                     throughput, radiance);
         if (!found || depth >= static_cast<std::uint32_t>(p_.plan.max_bounces))
             return;

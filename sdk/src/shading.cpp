@@ -59,30 +59,22 @@ float Shading::diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) con
     return couples_ ? f * view.diffuse_scale * (1 - albedo(to_light)) : f;
 }
 
-Response Shading::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
-                               const ViewTerms &view) const {
+Shading::Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                                const ViewTerms &view) const {
+    Weighed w;
     if (!(to_light.z > 0 && to_viewer.z > 0))
-        return {};
-    Response r;
-    if (diffuse_)
-        r.diffuse = diffuse_cos(to_light, view);
-    if (specular_)
-        r.specular = std::visit([&](const auto &m) { return m.evaluate_cos(to_light, to_viewer); },
-                                *specular_);
-    return r;
-}
-
-float Shading::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
-                   const ViewTerms &view) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
-    float pdf = 0;
-    if (diffuse_)
-        pdf += (1 - view.specular_share) * kLambert.pdf(to_light, to_viewer);
-    if (specular_ && view.specular_share > 0)
-        pdf += view.specular_share *
-               std::visit([&](const auto &m) { return m.pdf(to_light, to_viewer); }, *specular_);
-    return pdf;
+        return w;
+    if (diffuse_) {
+        w.f_cos.diffuse = diffuse_cos(to_light, view);
+        w.pdf = (1 - view.specular_share) * kLambert.pdf(to_light, to_viewer);
+    }
+    if (specular_) {
+        const WeighedLight s =
+            std::visit([&](const auto &m) { return m.weigh(to_light, to_viewer); }, *specular_);
+        w.f_cos.specular = s.f_cos;
+        w.pdf += view.specular_share * s.pdf_per_sr;
+    }
+    return w;
 }
 
 std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const ViewTerms &view,
@@ -104,8 +96,8 @@ std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const View
     const auto drawn = kLambert.sample(to_viewer, u);
     if (!drawn || !diffuse_)
         return std::nullopt;
-    return DrawnLight{drawn->direction, evaluate_cos(drawn->direction, to_viewer, view),
-                      pdf(drawn->direction, to_viewer, view)};
+    const Weighed w = weigh(drawn->direction, to_viewer, view);
+    return DrawnLight{drawn->direction, w.f_cos, w.pdf};
 }
 
 } // namespace tsuya

@@ -36,9 +36,12 @@ class Shading {
     Shading(const Material &material, float dye_mean, float tint_mean, bool keep_idle_parts);
 
     ViewTerms view_terms(const glm::vec3 &to_viewer) const;
-    Response evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
-                          const ViewTerms &view) const;
-    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer, const ViewTerms &view) const;
+    struct Weighed {
+        Response f_cos;
+        float pdf = 0; // of `sample`
+    };
+    Weighed weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                  const ViewTerms &view) const;
     std::optional<DrawnLight> sample(const glm::vec3 &to_viewer, const ViewTerms &view,
                                      glm::vec2 choice, glm::vec2 direction) const;
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "disk.h"
-#include "tsuya/sdk/great_circle.h"
 
 namespace tsuya {
 namespace {
@@ -38,6 +37,11 @@ glm::vec3 quadrature_point(int i) {
 struct TakedaBrdf::Terms {
     float value; // scaled * F * limit
     float k;
+
+    // rho times the first cosine
+    float cos(float first, float second) const {
+        return value * std::min({1 / second, k, k * first / second});
+    }
 };
 
 TakedaBrdf::TakedaBrdf(const Bard &bard, double f0)
@@ -90,8 +94,8 @@ float TakedaBrdf::limit(const glm::vec3 &to_light) const {
     return to_light.z < limited_below_ ? 1 / std::max(1.0f, light_albedo_.at(to_light)) : 1.0f;
 }
 
-TakedaBrdf::Terms TakedaBrdf::terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const glm::vec3 basic = to_basic(to_light, to_viewer).basic;
+TakedaBrdf::Terms TakedaBrdf::terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                                    const glm::vec3 &basic) const {
     const float sum = std::max(1 + glm::dot(to_light, to_viewer), kSmallest);
     const float light_half = std::sqrt(std::min(0.5f * sum, 1.0f)); // L.H
     return {scaled_.at(basic) * fresnel(f0_, light_half) * limit(to_light),
@@ -102,16 +106,15 @@ float TakedaBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer
     const float ci = to_light.z, cr = to_viewer.z;
     if (!(ci > 0 && cr > 0))
         return 0;
-    const Terms t = terms(to_light, to_viewer);
+    const Terms t = terms(to_light, to_viewer, to_basic(to_light, to_viewer).basic);
     return t.value * std::min({1 / (ci * cr), t.k / cr, t.k / ci});
 }
 
 float TakedaBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const float ci = to_light.z, cr = to_viewer.z;
-    if (!(ci > 0 && cr > 0))
+    if (!(to_light.z > 0 && to_viewer.z > 0))
         return 0;
-    const Terms t = terms(to_light, to_viewer);
-    return t.value * std::min({1 / cr, t.k, t.k * ci / cr});
+    return terms(to_light, to_viewer, to_basic(to_light, to_viewer).basic)
+        .cos(to_light.z, to_viewer.z);
 }
 
 float TakedaBrdf::density_of_basic(const glm::vec3 &basic) const {
@@ -124,7 +127,7 @@ std::optional<glm::vec3> TakedaBrdf::draw_view(const glm::vec3 &to_light,
                                                const glm::vec3 &u) const {
     glm::vec3 basic = direction_of_disk(disk_of_square(density_.sample({u.x, u.y}).point));
     if (half_turn_) {
-        const float tilt = std::atan2(glm::length(glm::vec2(to_light)), to_light.z);
+        const float tilt = angle_of(glm::length(glm::vec2(to_light)), to_light.z);
         const bool wants_away = u.z < 0.5f - tilt / kPi;
         const bool is_away = basic.x * to_light.x + basic.y * to_light.y <= 0;
         if (wants_away != is_away)
@@ -134,26 +137,33 @@ std::optional<glm::vec3> TakedaBrdf::draw_view(const glm::vec3 &to_light,
     return to_viewer.z > 0 ? std::optional(to_viewer) : std::nullopt;
 }
 
-float TakedaBrdf::density_of_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const GreatCircle c = to_basic(to_light, to_viewer);
+float TakedaBrdf::density_of_view(const GreatCircle &c) const {
     return density_of_basic(c.basic) * c.sine_ratio * (half_turn_ ? 1.0f : c.slope);
 }
 
-float TakedaBrdf::density_of_light(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const GreatCircle c = to_basic(to_light, to_viewer);
+float TakedaBrdf::density_of_light(const GreatCircle &c, const glm::vec3 &to_light,
+                                   const glm::vec3 &to_viewer) const {
     return density_of_basic(c.basic) * jacobian_of_light(c, to_light, to_viewer);
+}
+
+float TakedaBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return weigh(to_light, to_viewer).pdf_per_sr;
 }
 
 // Half of the lights come from V0 and the inverse map; half from the map with view and light
 // swapped, whose support is the whole hemisphere.
-float TakedaBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+WeighedLight TakedaBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
-    return 0.5f * (density_of_light(to_light, to_viewer) + density_of_view(to_viewer, to_light));
+        return {};
+    const GreatCircle circle = to_basic(to_light, to_viewer);
+    const float swapped = density_of_view(to_basic(to_viewer, to_light));
+    return {terms(to_light, to_viewer, circle.basic).cos(to_light.z, to_viewer.z),
+            0.5f * (density_of_light(circle, to_light, to_viewer) + swapped)};
 }
 
 float TakedaBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return to_light.z > 0 && to_viewer.z > 0 ? density_of_view(to_light, to_viewer) : 0.0f;
+    return to_light.z > 0 && to_viewer.z > 0 ? density_of_view(to_basic(to_light, to_viewer))
+                                             : 0.0f;
 }
 
 std::optional<SampledDirection> TakedaBrdf::sample(const glm::vec3 &to_viewer,
@@ -168,10 +178,10 @@ std::optional<SampledDirection> TakedaBrdf::sample(const glm::vec3 &to_viewer,
         to_light = draw_view(to_viewer, {u.x, u.y, 2 * u.z - 1});
     if (!to_light)
         return std::nullopt;
-    const float density = pdf(*to_light, to_viewer);
-    if (!(density > 0))
+    const WeighedLight light = weigh(*to_light, to_viewer);
+    if (!(light.pdf_per_sr > 0))
         return std::nullopt;
-    return SampledDirection{*to_light, evaluate_cos(*to_light, to_viewer) / density, density};
+    return SampledDirection{*to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr};
 }
 
 std::optional<SampledDirection> TakedaBrdf::sample_adjoint(const glm::vec3 &to_light,
@@ -181,13 +191,12 @@ std::optional<SampledDirection> TakedaBrdf::sample_adjoint(const glm::vec3 &to_l
     const std::optional<glm::vec3> to_viewer = draw_view(to_light, u);
     if (!to_viewer)
         return std::nullopt;
-    const float density = density_of_view(to_light, *to_viewer);
+    const GreatCircle circle = to_basic(to_light, *to_viewer);
+    const float density = density_of_view(circle);
     if (!(density > 0))
         return std::nullopt;
-    const Terms t = terms(to_light, *to_viewer);
-    const float ci = to_light.z, cr = to_viewer->z;
-    const float f_cos = t.value * std::min({1 / ci, t.k * cr / ci, t.k});
-    return SampledDirection{*to_viewer, f_cos / density, density};
+    const Terms t = terms(to_light, *to_viewer, circle.basic);
+    return SampledDirection{*to_viewer, t.cos(to_viewer->z, to_light.z) / density, density};
 }
 
 float TakedaBrdf::albedo_of_light(const glm::vec3 &to_light) const {

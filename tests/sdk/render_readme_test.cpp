@@ -16,7 +16,7 @@ tsuya::RenderResult portrait(const tsuya::Surface &dress, const tsuya::Reflectan
     scene.surfaces = {dress};
     scene.fabrics = {satin};
     scene.objects = {{.name = "dress", .surface = {0}, .fabric = {0}}};
-    scene.rectangles = {{.corner = {-2, 1, 2}, .edge_u = {1, 0, 1}, .edge_v = {0, 1, 0}}};
+    scene.rectangles = {{.corner = {-1, 1, 3}, .edge_u = {-1, 0, -1}, .edge_v = {0, 1, 0}}};
     scene.camera = {.eye = {0, 1, 4}, .target = {0, 1, 0}, .width = 40, .height = 50};
     return tsuya::render(scene, {.stop = {.samples_per_pixel = 16}, .channels = 8});
 }
@@ -26,7 +26,8 @@ TEST(Readme, ExampleRenders) {
     using namespace tsuya;
     const Scene scene = test::folded_satin(8, 8);
     ReflectanceTable table;
-    for (const BardView &v : test::satin_bard().views())
+    const Bard bard = test::satin_bard();
+    for (const BardView &v : bard.views())
         table.rows.push_back({0, 0, v.theta, v.phi, v.brdf_per_sr, 0});
     const RenderResult result = portrait(scene.surfaces[0], table);
     float largest = 0;

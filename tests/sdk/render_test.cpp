@@ -215,6 +215,8 @@ TEST(Promises, ErrorRuleStopsEarly) {
 TEST(Promises, GroupsAddUp) {
     Scene scene = folded_satin(32, 32);
     const SpectralImage apart = render(scene, quick(16)).image;
+    EXPECT_GT(apart.pixel(0, 16, 16)[2], 0.1f);
+    EXPECT_GT(apart.pixel(1, 16, 16)[2], 0.01f);
     scene.environment->group = {0};
     const SpectralImage together = render(scene, quick(16)).image;
     for (int y = 0; y < 32; ++y)

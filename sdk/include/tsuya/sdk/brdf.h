@@ -31,6 +31,8 @@ concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer
     { m.sample_adjoint(to_light, u) } -> std::same_as<std::optional<SampledDirection>>;
     /// Density of `sample`, 1/sr of to_light
     { m.pdf(to_light, to_viewer) } -> std::same_as<float>;
+    /// `evaluate_cos` and `pdf` at once, which share most of their work
+    { m.weigh(to_light, to_viewer) } -> std::same_as<WeighedLight>;
     /// Density of `sample_adjoint`, 1/sr of to_viewer
     { m.pdf_adjoint(to_light, to_viewer) } -> std::same_as<float>;
     /// Share of the light from one direction that is reflected: energy

@@ -17,6 +17,8 @@ struct GreatCircle {
     glm::vec3 basic{0, 0, 1}; ///< V0, unit, z >= 0
     float beta = 0;           ///< angle between R and V
     float beta0 = 0;          ///< angle between R and V0
+    float sine = 1;           ///< sin beta
+    float tilt = 0;           ///< theta_i
     float sine_ratio = 1;     ///< sin beta0 / sin beta, with its limits at beta = 0 and pi
     float slope = 1;          ///< dbeta0/dbeta
 };

@@ -22,6 +22,7 @@ class LambertBrdf {
     std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
                                                    const glm::vec3 &u) const;
     float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float albedo_of_light(const glm::vec3 &to_light) const;
     float albedo_of_view(const glm::vec3 &to_viewer) const;

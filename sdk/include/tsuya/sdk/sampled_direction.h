@@ -13,4 +13,10 @@ struct SampledDirection {
     float pdf_per_sr = 0;
 };
 
+/// The value of a BRDF with the density of drawing that light.
+struct WeighedLight {
+    float f_cos = 0; ///< f times the light's cosine, 1/sr
+    float pdf_per_sr = 0;
+};
+
 } // namespace tsuya

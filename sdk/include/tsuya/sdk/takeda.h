@@ -11,6 +11,7 @@
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/disk_table.h"
 #include "tsuya/sdk/distribution.h"
+#include "tsuya/sdk/great_circle.h"
 #include "tsuya/sdk/sampled_direction.h"
 
 namespace tsuya {
@@ -32,6 +33,7 @@ class TakedaBrdf {
     std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
                                                    const glm::vec3 &u) const;
     float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float albedo_of_light(const glm::vec3 &to_light) const;
     float albedo_of_view(const glm::vec3 &to_viewer) const;
@@ -41,13 +43,15 @@ class TakedaBrdf {
 
   private:
     struct Terms;
-    Terms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    Terms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                const glm::vec3 &basic) const;
     float limit(const glm::vec3 &to_light) const;
     void tabulate_albedos(Symmetry symmetry);
     std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
     float density_of_basic(const glm::vec3 &basic) const;
-    float density_of_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float density_of_light(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float density_of_view(const GreatCircle &circle) const;
+    float density_of_light(const GreatCircle &circle, const glm::vec3 &to_light,
+                           const glm::vec3 &to_viewer) const;
 
     float f0_ = 0.05f;
     bool half_turn_ = true;      ///< rho0 repeats after half a turn: the even proposal can be used
