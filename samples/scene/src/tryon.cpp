@@ -22,13 +22,13 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 // The studio, found by looking at the sample dress.
 constexpr double kBodyReflectance = 0.25;
-constexpr double kBackdropReflectance = 0.18;
+constexpr double kBackdropReflectance = 0.26;
 constexpr double kElevation = 3 * kDegree;    // of the camera
 constexpr double kAngleOfView = 24 * kDegree; // an 85 mm lens on 36 mm film
-constexpr double kKeyAzimuth = -72 * kDegree; // from the camera to the left
+constexpr double kKeyAzimuth = -66 * kDegree; // from the camera to the left
 constexpr double kKeyElevation = 28 * kDegree;
 constexpr double kKeyStrength = 1.0;
-constexpr double kFillRadiance = 0.12;
+constexpr double kFillRadiance = 0.16;
 
 /// A dye with the name that its files bear.
 struct NamedDye {
@@ -160,6 +160,13 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
     return made;
 }
 
+RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Progress &progress) {
+    settings.aovs = {"object"};
+    RenderResult rendered = render(scene, settings, progress);
+    keep_coverage(rendered.image);
+    return rendered;
+}
+
 TryOnResult run(const TryOn &job, const Progress &progress) {
     const std::vector<NamedDye> dyes = parse_dyes(job);
     const std::vector<NamedLamp> lamps = parse_lamps(job.lamps);
@@ -167,8 +174,6 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     TryOnScene made = make_try_on_scene(job, progress);
     prepare_output_folder(job.output);
 
-    RenderSettings settings = job.render;
-    settings.aovs = {"object"};
     TryOnResult result{.report = std::move(made.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
     for (std::size_t i = 0; i < dyes.size() && !result.interrupted; ++i) {
@@ -179,8 +184,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
         };
         if (dyes[i].spectrum)
             made.scene.fabrics[0].dye = *dyes[i].spectrum;
-        RenderResult rendered = render(made.scene, settings, part);
-        keep_coverage(rendered.image);
+        const RenderResult rendered = render_try_on(made.scene, job.render, part);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;
         write_pictures(rendered.image, dyes[i].name, lamps, job, sheet, result);

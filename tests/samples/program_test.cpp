@@ -1,0 +1,321 @@
+// The program from end to end: exit status, streams, files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/process.h"
+#include "samples/scratch.h"
+#include "tsuya/color/image_file.h"
+#include "tsuya/scene/data_folder.h"
+
+namespace tsuya::program {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using scene::Scratch;
+
+Run run(const Scratch &scratch, std::vector<std::string> arguments) {
+    return run_program(arguments, scratch.folder());
+}
+
+std::vector<std::string> lines_of(const std::string &text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+/// Mean over the picture, and that of its darkest channel value.
+void expect_picture(const fs::path &file, int width, int height) {
+    const Image image = read_image(file);
+    EXPECT_EQ(image.width, width) << file;
+    EXPECT_EQ(image.height, height) << file;
+    const double mean = std::accumulate(image.data.begin(), image.data.end(), 0.0) /
+                        static_cast<double>(image.data.size());
+    const auto [least, most] = std::minmax_element(image.data.begin(), image.data.end());
+    EXPECT_GT(mean, 0.05) << file;
+    EXPECT_GT(*most - *least, 0.1f) << file;
+}
+
+/// The small scene of a piece of cloth; returns its path.
+std::string write_scene(const Scratch &scratch, const std::string &more = "") {
+    scratch.write("cloth.obj", scene::cloth_obj());
+    return scratch.write("small.scene.toml", scene::small_scene(more)).string();
+}
+
+TEST(Program, TellsItsVersionAndCommands) {
+    const Scratch scratch;
+    EXPECT_EQ(run(scratch, {"--version"}).out.rfind("tsuya ", 0), 0u);
+    const Run help = run(scratch, {"--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_EQ(help.err, "");
+    for (const char *command :
+         {"tryon", "render", "relight", "compare", "fabric", "garment", "lab", "list"}) {
+        EXPECT_NE(help.out.find(command), std::string::npos) << command;
+        const Run of_command = run(scratch, {command, "--help"});
+        EXPECT_EQ(of_command.status, 0) << command;
+        EXPECT_NE(of_command.out.find("Example:\n  tsuya " + std::string(command)),
+                  std::string::npos)
+            << of_command.out;
+    }
+}
+
+TEST(Program, RefusesAWrongCallWithStatus2) {
+    const Scratch scratch;
+    for (const std::vector<std::string> &call :
+         std::vector<std::vector<std::string>>{{},
+                                               {"tyron", "-o", "x"},
+                                               {"tryon"},
+                                               {"render", "a.toml", "--frobnicate"},
+                                               {"render", "a.toml", "-o", "a.exr", "--spp", "many"},
+                                               {"list", "lamp"},
+                                               {"list", "lamps", "--progress", "loud"}}) {
+        const Run wrong = run(scratch, call);
+        EXPECT_EQ(wrong.status, 2) << wrong.err;
+        EXPECT_EQ(wrong.out, "");
+        EXPECT_EQ(wrong.err.rfind("tsuya: ", 0), 0u) << wrong.err;
+    }
+    EXPECT_NE(run(scratch, {"tyron"}).err.find("did you mean tryon"), std::string::npos);
+}
+
+TEST(Program, ListsWhatCanBeNamed) {
+    const Scratch scratch;
+    const Run lamps = run(scratch, {"list", "lamps"});
+    EXPECT_EQ(lamps.status, 0);
+    EXPECT_EQ(lamps.err, "");
+    EXPECT_NE(lamps.out.find("HP4"), std::string::npos);
+    for (const char *kind : {"lamps", "fabrics", "dyes", "models", "views"}) {
+        const json list = json::parse(run(scratch, {"list", kind, "--json"}).out);
+        EXPECT_EQ(list.at("schema"), "tsuya-list 1");
+        EXPECT_GE(list.at("entries").size(), 1u) << kind;
+    }
+    const Run nowhere = run(scratch, {"list", "fabrics", "--data", scratch.folder().string()});
+    EXPECT_EQ(nowhere.status, 1);
+    EXPECT_NE(nowhere.err.find(scratch.folder().string()), std::string::npos);
+}
+
+TEST(Program, TriesTheSampleDressOn) {
+    const Scratch scratch;
+    const fs::path out = scratch / "new/folder";
+    const Run done = run(
+        scratch, {"tryon", "-o", out.string(), "--width", "40", "--height", "50", "--spp", "4"});
+    ASSERT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.err, "");
+    const std::vector<std::string> files = lines_of(done.out);
+    EXPECT_EQ(files.size(), 9u);
+    EXPECT_EQ(scratch.file_count(), files.size());
+    for (const char *dye : {"white", "crimson"}) {
+        const SpectralImage image = read_spectral_exr(out / (std::string(dye) + ".exr"));
+        EXPECT_EQ(image.groups, (std::vector<std::string>{"key", "fill"}));
+        EXPECT_EQ(image.aov_names, std::vector<std::string>{"coverage"});
+        for (const char *lamp : {"-D65.png", "-HP4.png", "-A.png"})
+            expect_picture(out / (std::string(dye) + lamp), 40, 50);
+    }
+    const Image sheet = read_image(out / "sheet.png");
+    EXPECT_GT(sheet.width, 3 * 40);
+    EXPECT_GT(sheet.height, 2 * 50);
+}
+
+TEST(Program, LeavesNothingBehindWhereATryOnCannotBe) {
+    const Scratch scratch;
+    const std::string out = (scratch / "out").string();
+    const std::vector<std::vector<std::string>> calls{
+        {"--dye", "crimsom"},        {"--lamps", "D65,D66"},  {"--view", "Sharp"},
+        {"--fabric", "black_satan"}, {"--garment", "no.obj"}, {"--unit", "mile"}};
+    for (std::vector<std::string> call : calls) {
+        const std::string wrong = call[1].substr(call[1].find(',') + 1);
+        call.insert(call.begin(), {"tryon", "-o", out});
+        const Run refused = run(scratch, call);
+        EXPECT_EQ(refused.status, 1) << refused.err;
+        EXPECT_EQ(refused.out, "");
+        EXPECT_NE(refused.err.find(wrong), std::string::npos) << refused.err;
+        EXPECT_EQ(lines_of(refused.err).size(), 1u) << refused.err;
+        EXPECT_FALSE(fs::exists(out));
+    }
+    scratch.write("out", "mine");
+    EXPECT_EQ(run(scratch, {"tryon", "-o", out, "--width", "8", "--height", "10"}).status, 1);
+    EXPECT_EQ(read_file(out), "mine");
+}
+
+TEST(Program, RendersAScene) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch, "[output]\nlamps = [\"A\"]\n");
+    const fs::path exr = scratch / "new/a.exr", stats = scratch / "new/stats.json";
+    const Run explained = run(scratch, {"render", scene_file, "--explain"});
+    EXPECT_EQ(explained.status, 0) << explained.err;
+    EXPECT_NE(explained.out.find("bounces"), std::string::npos);
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+
+    const Run done =
+        run(scratch, {"render", scene_file, "-o", exr.string(), "--stats", stats.string(), "--spp",
+                      "6", "--channels", "8", "--aov", "depth,normal", "--progress", "json"});
+    ASSERT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.out, exr.string() + "\n" + (scratch / "new/a-A.png").string() + "\n");
+    for (const std::string &line : lines_of(done.err)) {
+        const json progress = json::parse(line);
+        EXPECT_EQ(progress.at("schema"), "tsuya-progress 1");
+        EXPECT_LE(progress.at("fraction"), 1.0);
+    }
+    EXPECT_GT(lines_of(done.err).size(), 2u);
+    expect_picture(scratch / "new/a-A.png", 16, 20);
+    const SpectralImage image = read_spectral_exr(exr);
+    EXPECT_EQ(image.basis.count, 8);
+    EXPECT_EQ(image.aov_names, (std::vector<std::string>{"depth", "normal"}));
+    const json numbers = json::parse(read_file(stats));
+    EXPECT_EQ(numbers.at("schema"), "tsuya-render-stats 1");
+    EXPECT_EQ(numbers.at("samples_per_pixel"), 6);
+    EXPECT_EQ(numbers.at("interrupted"), false);
+    EXPECT_FALSE(fs::exists(exr.string() + ".checkpoint"));
+}
+
+TEST(Program, PlacesWhatIsWrongInAScene) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch, "sample = 3\n");
+    const Run wrong = run(scratch, {"render", scene_file, "-o", (scratch / "n/a.exr").string()});
+    EXPECT_EQ(wrong.status, 1);
+    EXPECT_EQ(wrong.err.rfind("tsuya: " + scene_file + ":17:1: unknown key 'sample'", 0), 0u)
+        << wrong.err;
+    EXPECT_FALSE(fs::exists(scratch / "n"));
+}
+
+TEST(Program, RefusesPlacesBeforeItRenders) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    fs::create_directories(scratch / "folder.exr");
+    const std::size_t before = scratch.file_count();
+    for (const char *name : {"folder.exr", "cloth.obj/a.exr", "a.png"}) {
+        const Run wrong = run(scratch, {"render", scene_file, "-o", (scratch / name).string()});
+        EXPECT_EQ(wrong.status, 1) << name;
+        EXPECT_NE(wrong.err.find(scratch.folder().string()), std::string::npos) << wrong.err;
+    }
+    const Run outside = run(
+        scratch, {"render", scene_file, "-o", (scratch / "a.exr").string(), "--crop", "0,0,17,20"});
+    EXPECT_EQ(outside.status, 1);
+    EXPECT_NE(outside.err.find("16 x 20"), std::string::npos) << outside.err;
+    EXPECT_EQ(scratch.file_count(), before);
+}
+
+TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const std::string whole = (scratch / "whole.exr").string(),
+                      parts = (scratch / "parts.exr").string();
+    const auto call = [&](const std::string &out) {
+        return std::vector<std::string>{"render", scene_file, "-o",         out,
+                                        "--spp",  "16384",    "--progress", "json"};
+    };
+    const Run interrupted = run_program(call(parts), scratch.folder(), [](const std::string &err) {
+        return err.find("\"render\"") != std::string::npos;
+    });
+    ASSERT_EQ(interrupted.status, 3) << interrupted.err;
+    EXPECT_NE(interrupted.err.find("--resume"), std::string::npos);
+    EXPECT_EQ(interrupted.out, parts + "\n");
+    ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
+    const SpectralImage partial = read_spectral_exr(parts);
+
+    std::vector<std::string> resume = call(parts);
+    resume.push_back("--resume");
+    const Run resumed = run(scratch, resume);
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_FALSE(fs::exists(parts + ".checkpoint"));
+    ASSERT_EQ(run(scratch, call(whole)).status, 0);
+    const SpectralImage expected = read_spectral_exr(whole);
+    EXPECT_EQ(read_spectral_exr(parts).transport, expected.transport);
+    EXPECT_NE(partial.transport, expected.transport); // or nothing was interrupted
+}
+
+TEST(Program, RelightsAndCompares) {
+    const Scratch scratch;
+    const std::string exr = (scratch / "a.exr").string();
+    ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", exr}).status, 0);
+    const std::string png = (scratch / "p/a.png").string();
+    const Run relit = run(scratch, {"relight", exr, "--lamp", "key=A", "--lamp", "fill=D65", "-o",
+                                    png, "--adapt", "cat02", "--exposure", "1"});
+    ASSERT_EQ(relit.status, 0) << relit.err;
+    EXPECT_EQ(relit.out, png + "\n");
+    expect_picture(png, 16, 20);
+    EXPECT_EQ(run(scratch, {"relight", exr, "--lamp", "rim=A", "-o", png}).status, 1);
+    EXPECT_EQ(run(scratch, {"relight", png, "--lamp", "A", "-o", png}).status, 1);
+
+    const std::string sheet = (scratch / "sheet.png").string(),
+                      report = (scratch / "report.json").string();
+    const Run compared =
+        run(scratch, {"compare", exr, "--lamps", "D65,A,HP4", "-o", sheet, "--report", report});
+    ASSERT_EQ(compared.status, 0) << compared.err;
+    EXPECT_NE(compared.out.find("CIEDE2000"), std::string::npos);
+    const json numbers = json::parse(read_file(report));
+    EXPECT_EQ(numbers.at("schema"), "tsuya-compare 1");
+    ASSERT_EQ(numbers.at("differences").size(), 3u);
+    EXPECT_GT(numbers["differences"][0].at("mean"), 0.1);
+    EXPECT_GT(read_image(sheet).width, 3 * 16);
+}
+
+TEST(Program, ChecksGarments) {
+    const Scratch scratch;
+    const std::string good = scratch.write("good.obj", scene::cloth_obj()).string();
+    const std::string bad =
+        scratch.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1 2 3\nf 1 2 3\n").string();
+    EXPECT_EQ(run(scratch, {"garment", "check", good, "--strict"}).status, 0);
+    EXPECT_EQ(run(scratch, {"garment", "check", bad}).status, 0);
+    const Run strict = run(scratch, {"garment", "check", bad, "--strict", "--json"});
+    EXPECT_EQ(strict.status, 4) << strict.err;
+    const json report = json::parse(strict.out);
+    EXPECT_EQ(report.at("schema"), "tsuya-garment-check 1");
+    EXPECT_EQ(report.at("file").at("duplicate_faces"), 1);
+    EXPECT_EQ(run(scratch, {"garment", "check", (scratch / "no.obj").string()}).status, 1);
+
+    const std::string fine = (scratch / "n/fine.obj").string();
+    const Run divided = run(scratch, {"garment", "subdivide", good, "-o", fine, "--level", "2"});
+    ASSERT_EQ(divided.status, 0) << divided.err;
+    const json report_fine = json::parse(run(scratch, {"garment", "check", fine, "--json"}).out);
+    EXPECT_EQ(report_fine.at("faces"), 32);
+}
+
+TEST(Program, FitsFabrics) {
+    const Scratch scratch;
+    const fs::path data = scene::data_folder();
+    const std::string toml = (scratch / "n/black_satin.fabric.toml").string();
+    const Run fitted = run(scratch, {"fabric", "fit", (data / "fabrics/black_satin.csv").string(),
+                                     "-o", toml, "--json"});
+    ASSERT_EQ(fitted.status, 0) << fitted.err;
+    const json report = json::parse(fitted.out);
+    EXPECT_EQ(report.at("schema"), "tsuya-fabric-fit 1");
+    EXPECT_LT(report.at("residual"), 0.05);
+    EXPECT_GT(report.at("views").size(), 6u);
+    // Remake it by this command where the table has changed
+    EXPECT_EQ(read_file(toml), read_file(data / "fabrics/black_satin.fabric.toml"));
+
+    const std::string none = (scratch / "m/x.fabric.toml").string();
+    const std::string few =
+        scratch
+            .write("few.csv", "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr\n"
+                              "0,0,0,0,nan\n")
+            .string();
+    const Run refused = run(scratch, {"fabric", "fit", few, "-o", none});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find(few + ":2:9"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(scratch / "m"));
+}
+
+TEST(Program, PulsesInVirtualTime) {
+    const Scratch scratch;
+    const Run pulsed = run(scratch, {"lab", "pulse", "--simulate", "--json", "--count", "3",
+                                     "--width-ms", "2.5", "--lamp-line", "lamp"});
+    ASSERT_EQ(pulsed.status, 0) << pulsed.err;
+    const json report = json::parse(pulsed.out);
+    EXPECT_EQ(report.at("schema"), "tsuya-lab-pulse 1");
+    ASSERT_EQ(report.at("pulses").size(), 3u);
+    EXPECT_DOUBLE_EQ(report["pulses"][1].at("opened_ms"), 100.0);
+    EXPECT_DOUBLE_EQ(report["pulses"][1].at("closed_ms"), 102.5);
+    EXPECT_EQ(run(scratch, {"lab", "pulse", "--simulate", "--width-ms", "0"}).status, 1);
+    EXPECT_EQ(run(scratch, {"lab", "pulse", "--simulate", "--lamp-line", "shutter"}).status, 1);
+}
+
+} // namespace
+} // namespace tsuya::program

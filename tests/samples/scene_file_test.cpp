@@ -1,0 +1,215 @@
+#include "tsuya/scene/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "samples/scratch.h"
+#include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::scene {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+SceneFile read(const Scratch &scratch, const std::string &text) {
+    scratch.write("cloth.obj", cloth_obj());
+    return read_scene_file(scratch.write("a.scene.toml", text));
+}
+
+/// The problems of a scene file that must be refused.
+std::vector<Problem> problems_of(const Scratch &scratch, const std::string &text) {
+    try {
+        read(scratch, text);
+    } catch (const Error &error) {
+        return error.problems();
+    }
+    ADD_FAILURE() << "the scene was accepted:\n" << text;
+    return {{"", "", ""}};
+}
+
+TEST(SceneFile, HasDefaults) {
+    const Scratch scratch;
+    const SceneFile file =
+        read(scratch, "[fabrics.silk]\n[garments.cloth]\nmesh = \"cloth.obj\"\nfabric = \"silk\"\n"
+                      "[environment]\n");
+    EXPECT_FALSE(file.camera);
+    EXPECT_EQ(file.framing.width, 800);
+    EXPECT_EQ(file.framing.height, 1000);
+    EXPECT_NEAR(file.framing.azimuth, 25 * kDegree, 1e-12);
+    ASSERT_EQ(file.garments.size(), 1u);
+    EXPECT_TRUE(file.garments[0].visible);
+    EXPECT_TRUE(file.garments[0].options.want_frames);
+    EXPECT_EQ(file.garments[0].options.metres_per_unit, 1);
+    EXPECT_EQ(file.garments[0].options.subdivide.level, 1);
+    EXPECT_FALSE(file.fabrics[0].dye);
+    EXPECT_TRUE(file.fabrics[0].file.empty());
+    EXPECT_FALSE(file.backdrop);
+    ASSERT_TRUE(file.environment);
+    EXPECT_EQ(file.environment->radiance, 1);
+    EXPECT_EQ(file.light_groups, std::vector<std::string>{"environment"});
+    EXPECT_EQ(file.render.stop.samples_per_pixel, StopRule{}.samples_per_pixel);
+    EXPECT_TRUE(file.output.lamps.empty());
+    EXPECT_EQ(file.output.look.view, "Soft");
+}
+
+TEST(SceneFile, BuildsAScene) {
+    const Scratch scratch;
+    const BuiltScene built = build_scene(read(scratch, small_scene("[backdrop]\n")));
+    const Scene &scene = built.scene;
+    ASSERT_EQ(scene.objects.size(), 2u);
+    EXPECT_EQ(scene.objects[0].name, "cloth");
+    EXPECT_EQ(scene.light_groups, (std::vector<std::string>{"key", "fill"}));
+    EXPECT_EQ(scene.environment->group, LightGroupIndex{1});
+    EXPECT_EQ(scene.camera.width, 16);
+    EXPECT_FALSE(scene.surfaces[0].warp.empty());
+    EXPECT_FALSE(scene.fabrics[0].dye.is_constant());
+    // The camera frames the cloth
+    const glm::dvec3 pixel = project_point(scene.camera, {0, 0.3, 0});
+    EXPECT_NEAR(pixel.x, 8, 1);
+    EXPECT_NEAR(pixel.y, 10, 1);
+}
+
+TEST(SceneFile, ReadsEveryKey) {
+    const Scratch scratch;
+    scratch.write("flat.csv", "wavelength_nm,value\n400,0.5\n700,0.5\n");
+    const SceneFile file = read(
+        scratch,
+        "[camera]\neye = [1, 2, 3]\ntarget = [0, 1, 0]\nup = [0, 0, 1]\nvertical_angle_deg = 30\n"
+        "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\n[fabrics.b]\nreflectance = 0.25\n"
+        "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nlevel = 3\n"
+        "translate = [1, 2, 3]\nvisible = false\nmetres_per_uv = 2\ndefault_grain_deg = 90\n"
+        "invented_grain_deg = 45\ngrain.panel = 30\n"
+        "[bodies.b]\nmesh = \"cloth.obj\"\nfabric = \"a\"\n"
+        "[backdrop]\ncentre = [1, 0, 0]\nazimuth_deg = 90\nwidth = 5\nfront = 2\nback = 3\n"
+        "height = 4\nradius = 1\nreflectance = 0.3\n"
+        "[lights.k]\ncentre = [0, 1, 2]\ntarget = [0, 1, 0]\nwidth = 2\nheight = 3\nradiance = 7\n"
+        "group = \"sun\"\n"
+        "[environment]\nradiance = 0.5\ngroup = \"sun\"\nvisible = false\n"
+        "[render]\nerror = 0.02\nseconds = 5\nchannels = 8\nmax_bounces = 3\nseed = 9\n"
+        "aovs = [\"depth\"]\n"
+        "[output]\nlamps = [\"A\", \"D65\"]\nadapt = \"cat02\"\nview = \"Plain\"\nexposure = -1\n");
+    ASSERT_TRUE(file.camera);
+    EXPECT_EQ(file.camera->eye, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(file.camera->up, glm::dvec3(0, 0, 1));
+    EXPECT_NEAR(file.camera->vertical_angle, 30 * kDegree, 1e-12);
+    EXPECT_NEAR(file.fabrics[0].dye->at(500), 0.5, 1e-12);
+    EXPECT_EQ(file.fabrics[0].f0, 0.1);
+    EXPECT_EQ(file.fabrics[1].dye->at(500), 0.25);
+    const MeshEntry &garment = file.garments.at(0);
+    EXPECT_EQ(garment.fabric, 1u);
+    EXPECT_EQ(garment.options.metres_per_unit, 0.001);
+    EXPECT_EQ(garment.options.subdivide.level, 3);
+    EXPECT_EQ(garment.translate, glm::dvec3(1, 2, 3));
+    EXPECT_FALSE(garment.visible);
+    EXPECT_EQ(garment.options.metres_per_uv, 2.0);
+    EXPECT_NEAR(garment.options.frames.default_grain, 90 * kDegree, 1e-12);
+    EXPECT_NEAR(*garment.options.frames.invented_grain, 45 * kDegree, 1e-12);
+    EXPECT_NEAR(garment.options.frames.grain.at("panel"), 30 * kDegree, 1e-12);
+    EXPECT_FALSE(file.bodies.at(0).options.want_frames);
+    EXPECT_EQ(file.bodies.at(0).fabric, 0u);
+    EXPECT_NEAR(file.backdrop->shape.azimuth, 90 * kDegree, 1e-12);
+    EXPECT_EQ(file.backdrop->shape.back, 3);
+    EXPECT_EQ(file.backdrop->reflectance.at(500), 0.3);
+    EXPECT_EQ(file.lights.at(0).radiance, 7);
+    EXPECT_NEAR(glm::length(file.lights.at(0).edge_v), 3, 1e-12);
+    EXPECT_EQ(file.light_groups, std::vector<std::string>{"sun"});
+    EXPECT_FALSE(file.environment->visible);
+    EXPECT_EQ(file.render.stop.relative_error, 0.02);
+    EXPECT_EQ(file.render.stop.seconds, 5.0);
+    EXPECT_EQ(file.render.channels, 8);
+    EXPECT_EQ(file.render.max_bounces, 3);
+    EXPECT_EQ(file.render.seed, 9u);
+    EXPECT_EQ(file.render.aovs, std::vector<std::string>{"depth"});
+    EXPECT_EQ(file.output.lamps.at(1).name, "D65");
+    EXPECT_EQ(file.output.look.adapt, Adaptation::cat02);
+    EXPECT_EQ(file.output.look.view, "Plain");
+    EXPECT_EQ(file.output.look.exposure_stops, -1);
+}
+
+TEST(SceneFile, ReadsThatOfTheSamples) {
+    const SceneFile file = read_scene_file(data_folder() / "scenes" / "dress.scene.toml");
+    EXPECT_EQ(file.garments.size(), 1u);
+    EXPECT_EQ(file.output.lamps.size(), 3u);
+}
+
+struct BadInput {
+    const char *name;
+    const char *from, *to; ///< what is replaced in the small scene
+    const char *place;     ///< line and column
+    const char *what;      ///< in the message
+    const char *accepted;  ///< in what would be accepted
+};
+
+void PrintTo(const BadInput &bad, std::ostream *out) { *out << bad.name; }
+
+class BadScene : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadScene, IsRefusedAtItsPlace) {
+    const BadInput &bad = GetParam();
+    const Scratch scratch;
+    std::string text = small_scene();
+    const std::size_t at = text.find(bad.from);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, std::string(bad.from).size(), bad.to);
+    const std::vector<Problem> problems = problems_of(scratch, text);
+    ASSERT_EQ(problems.size(), 1u) << problems[1].what;
+    EXPECT_EQ(problems[0].where, (scratch / "a.scene.toml").string() + ":" + bad.place);
+    EXPECT_NE(problems[0].what.find(bad.what), std::string::npos) << problems[0].what;
+    EXPECT_NE(problems[0].accepted.find(bad.accepted), std::string::npos) << problems[0].accepted;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Inputs, BadScene,
+    testing::Values(
+        BadInput{"UnknownKey", "width = 16", "widht = 16", "2:1", "widht", "did you mean width"},
+        BadInput{"UnknownSection", "[render]", "[rendering]", "15:2", "rendering", "render"},
+        BadInput{"OutOfRange", "width = 16", "width = 0", "2:9", "0", "from 1 to 32768"},
+        BadInput{"NotANumber", "radiance = 0.2", "radiance = \"x\"", "13:12", "not a number",
+                 "number"},
+        BadInput{"UnknownFabric", "fabric = \"silk\"", "fabric = \"silc\"", "8:10", "silc",
+                 "did you mean silk"},
+        BadInput{"UnknownDye", "\"crimson\"", "\"crimsom\"", "5:7", "crimsom", "crimson"},
+        BadInput{"MissingMesh", "cloth.obj", "other.obj", "7:8", "other.obj", "relative"},
+        BadInput{"TwoColours", "[fabrics.silk]\n", "[fabrics.silk]\nreflectance = 0.5\n", "6:7",
+                 "both", "one of them"},
+        BadInput{"LightAtItsTarget", "[-1, 1, 2]", "[0, 0.3, 0]", "10:10", "at its target",
+                 "apart"},
+        BadInput{"LightWithoutCentre", "centre = [-1, 1, 2]\n", "", "9:1", "'centre' is missing",
+                 "such as"},
+        BadInput{"TwoNumbers", "[0, 0.3, 0]", "[0, 0.3]", "11:10", "2 numbers", "three"},
+        BadInput{"UnknownPanel", "fabric = \"silk\"", "fabric = \"silk\"\ngrain.sleeve = 3", "9:7",
+                 "sleeve", "panel"},
+        BadInput{"UnknownUnit", "fabric = \"silk\"", "fabric = \"silk\"\nunit = \"feet\"", "9:8",
+                 "feet", "mm"},
+        BadInput{"Channels", "samples_per_pixel = 4", "channels = 12", "16:12", "12 channels",
+                 "8, 16 or 32"},
+        BadInput{"EyeAndAzimuth", "width = 16", "eye = [0,0,2]\ntarget = [0,0,0]\nmargin = 0.1",
+                 "4:10", "beside eye", "frames"},
+        BadInput{"NotToml", "width = 16", "width = = 16", "2:9", "", "TOML"}),
+    [](const auto &input) { return std::string(input.param.name); });
+
+TEST(SceneFile, RefusesUnknownLampsAndViews) {
+    const Scratch scratch;
+    const std::vector<Problem> problems = problems_of(
+        scratch, small_scene("[output]\nlamps = [\"D66\"]\nview = \"soft\"\nadapt = \"cat16\"\n"));
+    ASSERT_EQ(problems.size(), 3u);
+    EXPECT_NE(problems[0].where.find(":18:9"), std::string::npos) << problems[0].where;
+    EXPECT_NE(problems[0].what.find("D66"), std::string::npos);
+}
+
+TEST(SceneFile, RefusesASceneWithoutLightOrGarment) {
+    const Scratch scratch;
+    EXPECT_EQ(problems_of(scratch, "[camera]\n").size(), 2u);
+}
+
+TEST(SceneFile, ReportsAllProblemsAtOnce) {
+    const Scratch scratch;
+    EXPECT_EQ(
+        problems_of(scratch, small_scene("seed = -1\nchannels = 3\nmax_bounces = -1\n")).size(),
+        3u);
+}
+
+} // namespace
+} // namespace tsuya::scene
