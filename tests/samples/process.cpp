@@ -32,8 +32,8 @@ std::string text_of(const std::filesystem::path &file) {
 
 } // namespace
 
-Run run_program(const std::vector<std::string> &arguments, const std::filesystem::path &scratch,
-                const std::function<bool(const std::string &err)> &interrupt_when) {
+Outcome run_program(const std::vector<std::string> &arguments, const std::filesystem::path &scratch,
+                    const std::function<bool(const std::string &err)> &interrupt_when) {
     const std::string out = scratch.string() + ".out", err = scratch.string() + ".err";
     std::vector<std::string> all{TSUYA_PROGRAM};
     all.insert(all.end(), arguments.begin(), arguments.end());
@@ -56,7 +56,7 @@ Run run_program(const std::vector<std::string> &arguments, const std::filesystem
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    const Run run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+    const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);
     return run;

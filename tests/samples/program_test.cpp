@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using scene::Scratch;
 
-Run run(const Scratch &scratch, std::vector<std::string> arguments) {
+Outcome run(const Scratch &scratch, std::vector<std::string> arguments) {
     return run_program(arguments, scratch.folder());
 }
 
@@ -52,13 +52,13 @@ std::string write_scene(const Scratch &scratch, const std::string &more = "") {
 TEST(Program, TellsItsVersionAndCommands) {
     const Scratch scratch;
     EXPECT_EQ(run(scratch, {"--version"}).out.rfind("tsuya ", 0), 0u);
-    const Run help = run(scratch, {"--help"});
+    const Outcome help = run(scratch, {"--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_EQ(help.err, "");
     for (const char *command :
          {"tryon", "render", "relight", "compare", "fabric", "garment", "lab", "list"}) {
         EXPECT_NE(help.out.find(command), std::string::npos) << command;
-        const Run of_command = run(scratch, {command, "--help"});
+        const Outcome of_command = run(scratch, {command, "--help"});
         EXPECT_EQ(of_command.status, 0) << command;
         EXPECT_NE(of_command.out.find("Example:\n  tsuya " + std::string(command)),
                   std::string::npos)
@@ -76,7 +76,7 @@ TEST(Program, RefusesAWrongCallWithStatus2) {
                                                {"render", "a.toml", "-o", "a.exr", "--spp", "many"},
                                                {"list", "lamp"},
                                                {"list", "lamps", "--progress", "loud"}}) {
-        const Run wrong = run(scratch, call);
+        const Outcome wrong = run(scratch, call);
         EXPECT_EQ(wrong.status, 2) << wrong.err;
         EXPECT_EQ(wrong.out, "");
         EXPECT_EQ(wrong.err.rfind("tsuya: ", 0), 0u) << wrong.err;
@@ -86,7 +86,7 @@ TEST(Program, RefusesAWrongCallWithStatus2) {
 
 TEST(Program, ListsWhatCanBeNamed) {
     const Scratch scratch;
-    const Run lamps = run(scratch, {"list", "lamps"});
+    const Outcome lamps = run(scratch, {"list", "lamps"});
     EXPECT_EQ(lamps.status, 0);
     EXPECT_EQ(lamps.err, "");
     EXPECT_NE(lamps.out.find("HP4"), std::string::npos);
@@ -95,7 +95,7 @@ TEST(Program, ListsWhatCanBeNamed) {
         EXPECT_EQ(list.at("schema"), "tsuya-list 1");
         EXPECT_GE(list.at("entries").size(), 1u) << kind;
     }
-    const Run nowhere = run(scratch, {"list", "fabrics", "--data", scratch.folder().string()});
+    const Outcome nowhere = run(scratch, {"list", "fabrics", "--data", scratch.folder().string()});
     EXPECT_EQ(nowhere.status, 1);
     EXPECT_NE(nowhere.err.find(scratch.folder().string()), std::string::npos);
 }
@@ -103,7 +103,7 @@ TEST(Program, ListsWhatCanBeNamed) {
 TEST(Program, TriesTheSampleDressOn) {
     const Scratch scratch;
     const fs::path out = scratch / "new/folder";
-    const Run done = run(
+    const Outcome done = run(
         scratch, {"tryon", "-o", out.string(), "--width", "40", "--height", "50", "--spp", "4"});
     ASSERT_EQ(done.status, 0) << done.err;
     EXPECT_EQ(done.err, "");
@@ -131,7 +131,7 @@ TEST(Program, LeavesNothingBehindWhereATryOnCannotBe) {
     for (std::vector<std::string> call : calls) {
         const std::string wrong = call[1].substr(call[1].find(',') + 1);
         call.insert(call.begin(), {"tryon", "-o", out});
-        const Run refused = run(scratch, call);
+        const Outcome refused = run(scratch, call);
         EXPECT_EQ(refused.status, 1) << refused.err;
         EXPECT_EQ(refused.out, "");
         EXPECT_NE(refused.err.find(wrong), std::string::npos) << refused.err;
@@ -147,12 +147,12 @@ TEST(Program, RendersAScene) {
     const Scratch scratch;
     const std::string scene_file = write_scene(scratch, "[output]\nlamps = [\"A\"]\n");
     const fs::path exr = scratch / "new/a.exr", stats = scratch / "new/stats.json";
-    const Run explained = run(scratch, {"render", scene_file, "--explain"});
+    const Outcome explained = run(scratch, {"render", scene_file, "--explain"});
     EXPECT_EQ(explained.status, 0) << explained.err;
     EXPECT_NE(explained.out.find("bounces"), std::string::npos);
     EXPECT_FALSE(fs::exists(scratch / "new"));
 
-    const Run done =
+    const Outcome done =
         run(scratch, {"render", scene_file, "-o", exr.string(), "--stats", stats.string(), "--spp",
                       "6", "--channels", "8", "--aov", "depth,normal", "--progress", "json"});
     ASSERT_EQ(done.status, 0) << done.err;
@@ -177,7 +177,8 @@ TEST(Program, RendersAScene) {
 TEST(Program, PlacesWhatIsWrongInAScene) {
     const Scratch scratch;
     const std::string scene_file = write_scene(scratch, "sample = 3\n");
-    const Run wrong = run(scratch, {"render", scene_file, "-o", (scratch / "n/a.exr").string()});
+    const Outcome wrong =
+        run(scratch, {"render", scene_file, "-o", (scratch / "n/a.exr").string()});
     EXPECT_EQ(wrong.status, 1);
     EXPECT_EQ(wrong.err.rfind("tsuya: " + scene_file + ":17:1: unknown key 'sample'", 0), 0u)
         << wrong.err;
@@ -190,11 +191,11 @@ TEST(Program, RefusesPlacesBeforeItRenders) {
     fs::create_directories(scratch / "folder.exr");
     const std::size_t before = scratch.file_count();
     for (const char *name : {"folder.exr", "cloth.obj/a.exr", "a.png"}) {
-        const Run wrong = run(scratch, {"render", scene_file, "-o", (scratch / name).string()});
+        const Outcome wrong = run(scratch, {"render", scene_file, "-o", (scratch / name).string()});
         EXPECT_EQ(wrong.status, 1) << name;
         EXPECT_NE(wrong.err.find(scratch.folder().string()), std::string::npos) << wrong.err;
     }
-    const Run outside = run(
+    const Outcome outside = run(
         scratch, {"render", scene_file, "-o", (scratch / "a.exr").string(), "--crop", "0,0,17,20"});
     EXPECT_EQ(outside.status, 1);
     EXPECT_NE(outside.err.find("16 x 20"), std::string::npos) << outside.err;
@@ -210,9 +211,10 @@ TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
         return std::vector<std::string>{"render", scene_file, "-o",         out,
                                         "--spp",  "16384",    "--progress", "json"};
     };
-    const Run interrupted = run_program(call(parts), scratch.folder(), [](const std::string &err) {
-        return err.find("\"render\"") != std::string::npos;
-    });
+    const Outcome interrupted =
+        run_program(call(parts), scratch.folder(), [](const std::string &err) {
+            return err.find("\"render\"") != std::string::npos;
+        });
     ASSERT_EQ(interrupted.status, 3) << interrupted.err;
     EXPECT_NE(interrupted.err.find("--resume"), std::string::npos);
     EXPECT_EQ(interrupted.out, parts + "\n");
@@ -221,7 +223,7 @@ TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
 
     std::vector<std::string> resume = call(parts);
     resume.push_back("--resume");
-    const Run resumed = run(scratch, resume);
+    const Outcome resumed = run(scratch, resume);
     ASSERT_EQ(resumed.status, 0) << resumed.err;
     EXPECT_FALSE(fs::exists(parts + ".checkpoint"));
     ASSERT_EQ(run(scratch, call(whole)).status, 0);
@@ -235,8 +237,8 @@ TEST(Program, RelightsAndCompares) {
     const std::string exr = (scratch / "a.exr").string();
     ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", exr}).status, 0);
     const std::string png = (scratch / "p/a.png").string();
-    const Run relit = run(scratch, {"relight", exr, "--lamp", "key=A", "--lamp", "fill=D65", "-o",
-                                    png, "--adapt", "cat02", "--exposure", "1"});
+    const Outcome relit = run(scratch, {"relight", exr, "--lamp", "key=A", "--lamp", "fill=D65",
+                                        "-o", png, "--adapt", "cat02", "--exposure", "1"});
     ASSERT_EQ(relit.status, 0) << relit.err;
     EXPECT_EQ(relit.out, png + "\n");
     expect_picture(png, 16, 20);
@@ -245,7 +247,7 @@ TEST(Program, RelightsAndCompares) {
 
     const std::string sheet = (scratch / "sheet.png").string(),
                       report = (scratch / "report.json").string();
-    const Run compared =
+    const Outcome compared =
         run(scratch, {"compare", exr, "--lamps", "D65,A,HP4", "-o", sheet, "--report", report});
     ASSERT_EQ(compared.status, 0) << compared.err;
     EXPECT_NE(compared.out.find("CIEDE2000"), std::string::npos);
@@ -263,7 +265,7 @@ TEST(Program, ChecksGarments) {
         scratch.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1 2 3\nf 1 2 3\n").string();
     EXPECT_EQ(run(scratch, {"garment", "check", good, "--strict"}).status, 0);
     EXPECT_EQ(run(scratch, {"garment", "check", bad}).status, 0);
-    const Run strict = run(scratch, {"garment", "check", bad, "--strict", "--json"});
+    const Outcome strict = run(scratch, {"garment", "check", bad, "--strict", "--json"});
     EXPECT_EQ(strict.status, 4) << strict.err;
     const json report = json::parse(strict.out);
     EXPECT_EQ(report.at("schema"), "tsuya-garment-check 1");
@@ -271,7 +273,8 @@ TEST(Program, ChecksGarments) {
     EXPECT_EQ(run(scratch, {"garment", "check", (scratch / "no.obj").string()}).status, 1);
 
     const std::string fine = (scratch / "n/fine.obj").string();
-    const Run divided = run(scratch, {"garment", "subdivide", good, "-o", fine, "--level", "2"});
+    const Outcome divided =
+        run(scratch, {"garment", "subdivide", good, "-o", fine, "--level", "2"});
     ASSERT_EQ(divided.status, 0) << divided.err;
     const json report_fine = json::parse(run(scratch, {"garment", "check", fine, "--json"}).out);
     EXPECT_EQ(report_fine.at("faces"), 32);
@@ -281,8 +284,9 @@ TEST(Program, FitsFabrics) {
     const Scratch scratch;
     const fs::path data = scene::data_folder();
     const std::string toml = (scratch / "n/black_satin.fabric.toml").string();
-    const Run fitted = run(scratch, {"fabric", "fit", (data / "fabrics/black_satin.csv").string(),
-                                     "-o", toml, "--json"});
+    const Outcome fitted =
+        run(scratch,
+            {"fabric", "fit", (data / "fabrics/black_satin.csv").string(), "-o", toml, "--json"});
     ASSERT_EQ(fitted.status, 0) << fitted.err;
     const json report = json::parse(fitted.out);
     EXPECT_EQ(report.at("schema"), "tsuya-fabric-fit 1");
@@ -297,7 +301,7 @@ TEST(Program, FitsFabrics) {
             .write("few.csv", "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr\n"
                               "0,0,0,0,nan\n")
             .string();
-    const Run refused = run(scratch, {"fabric", "fit", few, "-o", none});
+    const Outcome refused = run(scratch, {"fabric", "fit", few, "-o", none});
     EXPECT_EQ(refused.status, 1);
     EXPECT_NE(refused.err.find(few + ":2:9"), std::string::npos) << refused.err;
     EXPECT_FALSE(fs::exists(scratch / "m"));
@@ -305,8 +309,8 @@ TEST(Program, FitsFabrics) {
 
 TEST(Program, PulsesInVirtualTime) {
     const Scratch scratch;
-    const Run pulsed = run(scratch, {"lab", "pulse", "--simulate", "--json", "--count", "3",
-                                     "--width-ms", "2.5", "--lamp-line", "lamp"});
+    const Outcome pulsed = run(scratch, {"lab", "pulse", "--simulate", "--json", "--count", "3",
+                                         "--width-ms", "2.5", "--lamp-line", "lamp"});
     ASSERT_EQ(pulsed.status, 0) << pulsed.err;
     const json report = json::parse(pulsed.out);
     EXPECT_EQ(report.at("schema"), "tsuya-lab-pulse 1");
