@@ -1,4 +1,4 @@
-// How much the colour of the sample dress changes between lamps: illuminant_comparison [SAMPLES]
+// How much the colour of the sample dress changes between lamps: illuminant_comparison SAMPLES
 
 #include <cstdio>
 #include <cstdlib>
