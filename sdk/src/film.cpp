@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <numeric>
 #include <string>
 
 #include "tsuya/sdk/error.h"
@@ -57,26 +59,38 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
     done.resize(tiles.size());
 }
 
-double Film::relative_error() {
-    double errors = 0, values = 0;
-    const auto values_per_pixel = groups * static_cast<std::size_t>(channels);
-    for (std::size_t t = 0; t < tiles.size(); ++t) {
-        const double n = done[t];
-        for (int y = tiles[t].y0; n > 1 && y < tiles[t].y1; ++y)
-            for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {
-                const float *const p = pixel(x, y);
-                double total = 0;
-                for (std::size_t i = 0; i < values_per_pixel; ++i)
-                    total += p[i] / static_cast<double>(values_per_pixel);
-                const std::size_t at =
-                    static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(x);
-                const double variance = sum_of_squares[at] / n - total / n * (total / n);
-                errors += std::sqrt(std::max(0.0, variance) / (n - 1));
-                values += total / n;
-            }
-    }
-    return values > 0 ? errors / values : 0;
+Film::TileError Film::tile_error(std::size_t t) const {
+    TileError result;
+    const double n = done[t];
+    const std::size_t count = groups * static_cast<std::size_t>(channels);
+    for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
+        for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {
+            const float *const p = sum.data() + at(x, y) * count;
+            const double mean = std::accumulate(p, p + count, 0.0) / static_cast<double>(count) / n;
+            const double variance = sum_of_squares[at(x, y)] / n - mean * mean;
+            result.errors += std::sqrt(std::max(0.0, variance) / (n - 1));
+            result.values += mean;
+        }
+    return result;
+}
+
+double Film::relative_error(std::size_t t) const {
+    if (done[t] < 2)
+        return std::numeric_limits<double>::infinity();
+    const TileError e = tile_error(t);
+    const double pixels = (tiles[t].x1 - tiles[t].x0) * (tiles[t].y1 - tiles[t].y0);
+    return e.errors / std::max(e.values, kDark * pixels);
+}
+
+double Film::relative_error() const {
+    TileError total;
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+        if (done[t] > 1) {
+            const TileError e = tile_error(t);
+            total.errors += e.errors;
+            total.values += e.values;
+        }
+    return total.values > 0 ? total.errors / total.values : 0;
 }
 
 SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) {

@@ -9,6 +9,9 @@
 
 namespace tsuya {
 
+// Errors count against at least this transport: a twentieth of a white diffuser's.
+inline constexpr double kDark = 0.05;
+
 struct Tile {
     int x0, y0, x1, y1;
 };
@@ -31,10 +34,24 @@ struct Film {
                              static_cast<std::size_t>(x)) *
                                 groups * static_cast<std::size_t>(channels);
     }
-    // Mean standard error of lit pixels over their mean value.
-    double relative_error();
+    // Mean standard error of the pixels of a tile over their mean value, or over kDark where they
+    // are darker; infinite before there are two samples.
+    double relative_error(std::size_t tile) const;
+    // The same for the whole picture.
+    double relative_error() const;
     // Means of the sums.
     SpectralImage develop(const Scene &scene, const RenderSettings &settings);
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+
+  private:
+    // Sums over the pixels of a tile of standard errors and of values.
+    struct TileError {
+        double errors = 0, values = 0;
+    };
+    TileError tile_error(std::size_t tile) const;
 };
 
 // What must be the same for a render to go on: a hash of scene and settings.

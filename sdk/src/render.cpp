@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <numeric>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -24,6 +25,8 @@ using Clock = std::chrono::steady_clock;
 
 // Samples that every pixel gets before any gets more: how often stop rules are looked at.
 constexpr int kSamplesPerPass = 8;
+// Passes before an estimate of the error is trusted.
+constexpr int kLeastPasses = 2;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -120,22 +123,37 @@ template <int K> class Job {
             film_.not_finite += not_finite_.exchange(0);
             if (stop.seconds && seconds_since(start) >= *stop.seconds)
                 break;
-            if (stop.relative_error && film_.relative_error() <= *stop.relative_error)
+            if (all_good_enough())
                 break;
         }
     }
 
   private:
+    // Whether a tile needs no more samples. Looks at the tile alone, so that neither threads nor an
+    // interruption change what is rendered.
+    bool good_enough(std::size_t tile) const {
+        return settings_.stop.relative_error &&
+               film_.done[tile] >= kLeastPasses * kSamplesPerPass &&
+               film_.relative_error(tile) <= *settings_.stop.relative_error;
+    }
+    bool all_good_enough() const {
+        for (std::size_t t = 0; t < film_.tiles.size(); ++t)
+            if (!good_enough(t))
+                return false;
+        return true;
+    }
+
     void pass(int from, int to) {
         std::atomic<std::size_t> finished{0};
         tbb::parallel_for(std::size_t{0}, film_.tiles.size(), [&](std::size_t t) {
             if (progress_.stopped())
                 return;
             const FlushDenormals flush;
-            // A tile that has more samples than this pass gives comes from a checkpoint
-            if (film_.done[t] < to)
+            // A tile may have this pass's samples from a checkpoint, or have had enough before
+            if (film_.done[t] < to && !good_enough(t)) {
                 render_tile(film_.tiles[t], std::max(from, film_.done[t]), to);
-            film_.done[t] = std::max(film_.done[t], to);
+                film_.done[t] = to;
+            }
             const std::size_t n = ++finished;
             if (const std::unique_lock lock(reporting_, std::try_to_lock); lock)
                 progress_("render", (from + (to - from) * static_cast<double>(n) /
@@ -224,7 +242,8 @@ RenderResult render(const Scene &scene, const RenderSettings &settings, const Pr
 
     RenderStats &stats = result.stats;
     stats.interrupted = progress.stopped();
-    stats.samples_per_pixel = *std::min_element(film.done.begin(), film.done.end());
+    stats.samples_per_pixel = std::accumulate(film.done.begin(), film.done.end(), 0.0) /
+                              static_cast<double>(film.done.size());
     stats.relative_error = film.relative_error();
     stats.rays = film.rays;
     stats.not_finite = film.not_finite;

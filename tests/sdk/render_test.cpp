@@ -203,12 +203,29 @@ TEST(Promises, SkippingChangesNothing) {
     EXPECT_EQ(render(scene, settings).image.transport, lean.transport);
 }
 
+// An error rule spends samples where they are needed, and what it promises is there: the difference
+// from a picture with many more samples.
 TEST(Promises, ErrorRuleStopsEarly) {
+    const Scene scene = folded_satin(64, 64);
     RenderSettings settings = quick(4096);
-    settings.stop.relative_error = 0.2;
-    const RenderResult result = render(folded_satin(32, 32), settings);
-    EXPECT_LT(result.stats.samples_per_pixel, 4096);
-    EXPECT_LE(result.stats.relative_error, 0.2);
+    settings.stop.relative_error = 0.05;
+    const RenderResult result = render(scene, settings);
+    EXPECT_LT(result.stats.samples_per_pixel, 1000);
+    EXPECT_GT(result.stats.samples_per_pixel, 16);
+    EXPECT_LE(result.stats.relative_error, 0.05);
+
+    settings.threads = 3;
+    EXPECT_EQ(render(scene, settings).image.transport, result.image.transport);
+
+    RenderSettings finer = quick(2048);
+    finer.seed = 5;
+    const SpectralImage reference = render(scene, finer).image;
+    double difference = 0, total = 0;
+    for (std::size_t i = 0; i < reference.transport.size(); ++i) {
+        difference += std::abs(reference.transport[i] - result.image.transport[i]);
+        total += reference.transport[i];
+    }
+    EXPECT_LT(difference / total, 0.05);
 }
 
 // Two lights in two groups add up to both in one group.

@@ -18,9 +18,10 @@ namespace tsuya {
 
 /// When a render is done: at the first that is reached.
 struct StopRule {
-    int samples_per_pixel = 64; ///< 1 to 65536
-    std::optional<double>
-        relative_error{};            ///< mean over lit pixels of the standard error over the value
+    int samples_per_pixel = 64; ///< 1 to 65536; at most, where an error is given
+    /// Each part of the picture is done when the mean standard error of its pixels is below this
+    /// share of their mean value: smooth parts are done first.
+    std::optional<double> relative_error{};
     std::optional<double> seconds{}; ///< not reproducible
 };
 
@@ -45,7 +46,7 @@ std::vector<std::string> aov_names();
 
 /// What a render did.
 struct RenderStats {
-    int samples_per_pixel = 0;
+    double samples_per_pixel = 0; ///< mean over the picture
     double seconds = 0;
     double build_seconds = 0; ///< of the acceleration structure and materials
     double relative_error = 0;
