@@ -56,6 +56,10 @@ class TryOnCommand final : public Command {
         job_.look = look_.look();
         const scene::TryOnResult result = scene::run(job_, console.progress());
         console.warnings(result.report, job_.garment.string());
+        for (const RenderStats &stats : result.stats)
+            if (stats.not_finite > 0)
+                console.warning(std::to_string(stats.not_finite) +
+                                " samples were not finite and are left out");
         for (const std::filesystem::path &file : result.files)
             std::cout << file.string() << "\n";
         if (!result.interrupted)

@@ -111,9 +111,6 @@ void write_pictures(const SpectralImage &image, const std::string &name,
     write_spectral_exr(result.files.back(), image);
     for (const NamedLamp &lamp : lamps) {
         Image picture = picture_under(image, {&lamp, 1}, job.look);
-        // A pixel without a sample is not a number: an interrupted render shows it black.
-        std::replace_if(
-            picture.data.begin(), picture.data.end(), [](float v) { return !(v == v); }, 0.0f);
         result.files.push_back(job.output / (name + "-" + lamp.name + ".png"));
         write_png(result.files.back(), picture);
         sheet.pictures.push_back({std::move(picture), caption_of(lamp)});

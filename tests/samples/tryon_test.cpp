@@ -1,0 +1,109 @@
+#include "tsuya/scene/tryon.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "samples/scratch.h"
+#include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/studio.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+TryOn small_job(const fs::path &output) {
+    TryOn job = sample_try_on(data_folder());
+    job.level = 0;
+    job.width = 16;
+    job.height = 20;
+    job.render.stop.samples_per_pixel = 8;
+    job.lamps = {"D65"};
+    job.output = output;
+    return job;
+}
+
+TEST(TryOn, LightsTheGarmentFromTheLeftOfThePicture) {
+    for (const double azimuth : {0.0, 25.0, 140.0}) {
+        TryOn job = small_job({});
+        job.azimuth_deg = azimuth;
+        const Scene scene = make_try_on_scene(job).scene;
+        EXPECT_EQ(scene.light_groups, (std::vector<std::string>{"key", "fill"}));
+        ASSERT_EQ(scene.rectangles.size(), 1u);
+        const RectangleLight &key = scene.rectangles[0];
+        const glm::dvec3 centre = key.corner + 0.5 * (key.edge_u + key.edge_v);
+        const glm::dvec3 forward = scene.camera.target - scene.camera.eye;
+        const glm::dvec3 right = glm::cross(forward, scene.camera.up);
+        EXPECT_LT(glm::dot(centre - scene.camera.target, right), 0);
+        EXPECT_GT(centre.y, scene.camera.target.y);
+    }
+}
+
+TEST(TryOn, FramesTheWholeFigure) {
+    const Scene scene = make_try_on_scene(small_job({})).scene;
+    ASSERT_EQ(scene.objects.size(), 3u);
+    for (const std::size_t surface : {0u, 1u})
+        for (const glm::dvec3 &p : scene.surfaces[surface].position) {
+            const glm::dvec3 pixel = project_point(scene.camera, p);
+            ASSERT_GT(pixel.x, 0.03 * 16);
+            ASSERT_LT(pixel.x, 0.97 * 16);
+            ASSERT_GT(pixel.y, 0.03 * 20);
+            ASSERT_LT(pixel.y, 0.97 * 20);
+        }
+}
+
+TEST(TryOn, CoverageIsTheGarments) {
+    const Scratch scratch;
+    const TryOn job = small_job(scratch.folder());
+    const RenderResult result = render_try_on(make_try_on_scene(job).scene, job.render);
+    ASSERT_EQ(result.image.aov_names, std::vector<std::string>{"coverage"});
+    const Image &coverage = result.image.aovs[0];
+    std::size_t covered = 0;
+    for (const float v : coverage.data) {
+        EXPECT_TRUE(v == 0 || v == 1) << v;
+        covered += v == 1 ? 1 : 0;
+    }
+    EXPECT_GT(covered, 16u * 20u / 20u);
+    EXPECT_LT(covered, 16u * 20u / 2u);
+    EXPECT_EQ(*coverage.pixel(0, 0), 0);  // the wall
+    EXPECT_EQ(*coverage.pixel(8, 14), 1); // the skirt
+}
+
+TEST(TryOn, KeepsTheFabricsOwnDye) {
+    const Scratch scratch;
+    TryOn job = small_job(scratch.folder());
+    job.dyes = {};
+    const TryOnResult result = run(job);
+    ASSERT_EQ(result.files.size(), 3u);
+    EXPECT_EQ(result.files[0].filename(), "black_satin.exr");
+}
+
+TEST(TryOn, SavesWhatIsDoneWhereItIsStopped) {
+    const Scratch scratch;
+    std::atomic<bool> stop{false};
+    Progress progress{.stop = &stop};
+    progress.report = [&](std::string_view stage, double) {
+        stop = stop || stage == "render white";
+    };
+    TryOn job = small_job(scratch.folder());
+    job.render.stop.samples_per_pixel = 64;
+    const TryOnResult result = run(job, progress);
+    EXPECT_TRUE(result.interrupted);
+    ASSERT_EQ(result.files.size(), 2u);
+    EXPECT_EQ(result.files[0].filename(), "white.exr");
+    EXPECT_TRUE(fs::exists(result.files[1]));
+    EXPECT_FALSE(fs::exists(scratch / "sheet.png"));
+}
+
+TEST(TryOn, RefusesADyeNamedTwice) {
+    const Scratch scratch;
+    TryOn job = small_job(scratch / "new");
+    job.dyes = {"indigo", "indigo"};
+    EXPECT_THROW(run(job), Error);
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+}
+
+} // namespace
+} // namespace tsuya::scene
