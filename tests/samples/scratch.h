@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -17,10 +18,10 @@ class Scratch {
   public:
     Scratch() {
         const auto *test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("tsuya-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
-                   std::to_string(testing::UnitTest::GetInstance()->random_seed()) + "-" +
-                   std::to_string(getpid()));
+        std::string name = std::string("tsuya-") + test->test_suite_name() + "-" + test->name() +
+                           "-" + std::to_string(getpid());
+        std::replace(name.begin(), name.end(), '/', '-'); // of parameterised tests
+        folder_ = std::filesystem::temp_directory_path() / name;
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }
