@@ -54,6 +54,9 @@ class TryOnCommand final : public Command {
         }
         job_.fabric = scene::find_fabric(fabric_, data);
         job_.look = look_.look();
+        job_.render.stop.relative_error = error_;
+        if (samples_)
+            job_.render.stop = {.samples_per_pixel = *samples_};
         const scene::TryOnResult result = scene::run(job_, console.progress());
         console.warnings(result.report, job_.garment.string());
         for (const RenderStats &stats : result.stats)
@@ -76,9 +79,12 @@ class TryOnCommand final : public Command {
         app_.add_option("--height", job_.height, "Pixels")
             ->check(CLI::Range(1, 32768))
             ->capture_default_str();
-        app_.add_option("--spp,--samples", job_.render.stop.samples_per_pixel, "Samples per pixel")
-            ->check(CLI::Range(1, 65536))
+        app_.add_option("--error", error_, "Standard error over value that each part may keep")
+            ->check(CLI::PositiveNumber)
             ->capture_default_str();
+        app_.add_option("--spp,--samples", samples_, "Samples per pixel, the same everywhere")
+            ->check(CLI::Range(1, 65536))
+            ->excludes("--error");
         app_.add_option("--channels", job_.render.channels, "Spectral channels")
             ->check(CLI::IsMember({8, 16, 32}))
             ->capture_default_str();
@@ -98,6 +104,8 @@ class TryOnCommand final : public Command {
     std::filesystem::path garment_{}, data_{};
     std::string fabric_ = "black_satin";
     LookOptions look_{};
+    double error_ = *scene::kTryOnQuality.relative_error;
+    std::optional<int> samples_{};
 };
 
 } // namespace

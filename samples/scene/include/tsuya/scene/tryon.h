@@ -19,8 +19,9 @@
 
 namespace tsuya::scene {
 
-/// Samples per pixel of a try-on unless one is asked for.
-inline constexpr int kTryOnSamples = 64;
+/// How good the picture of a try-on is unless something else is asked for: the mean standard error
+/// of each part of it, as a share of its value, and the most samples that a pixel may take.
+inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.035};
 
 /// What is tried on and how it is shown.
 struct TryOn {
@@ -35,7 +36,7 @@ struct TryOn {
     double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
     int width = 800;
     int height = 1000;
-    RenderSettings render{.stop = {.samples_per_pixel = kTryOnSamples}};
+    RenderSettings render{.stop = kTryOnQuality};
     DisplayOptions look = default_look();
     std::filesystem::path output{}; ///< a folder; made where it is missing
 };
