@@ -36,8 +36,12 @@ class FabricCommand final : public Command {
 
     bool called() const override { return fit_.parsed(); }
 
-    Status run(Console &) override {
+    Status run(Console &console) override {
         const ReflectanceTable table = read_reflectance_table(table_);
+        if (!table.symmetry_declared)
+            console.warning(table_.string() +
+                            ": the symmetry is not declared, orthotropic is assumed; "
+                            "declare it by a line such as `# symmetry: half-turn`");
         Fabric fabric{.name = name_.empty() ? table_.stem().string() : name_, .keys = table.keys};
         fabric.bard = Bard::fit(table, table_.string());
         if (f0_ > 0)

@@ -58,7 +58,9 @@ std::optional<ReflectanceTable> read_views(const Section &root, Symmetry symmetr
 }
 
 Symmetry read_symmetry(const Section &root) {
-    const std::string name = root.text("symmetry").value_or(name_of(Symmetry::orthotropic));
+    if (!root.has("views") && !root.has("symmetry"))
+        return Symmetry::orthotropic;
+    const std::string name = root.required_text("symmetry");
     const std::vector<std::string> known = {"orthotropic", "half-turn", "none"};
     for (const Symmetry s : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
         if (name == name_of(s))

@@ -37,7 +37,9 @@ std::string number_text(double value, int digits) {
 class TableReader {
   public:
     explicit TableReader(const std::filesystem::path &file)
-        : name_(file.string()), text_(read_file(file)) {}
+        : name_(file.string()), text_(read_file(file)) {
+        table_.symmetry_declared = false;
+    }
 
     ReflectanceTable read() {
         std::string_view rest = text_;
@@ -80,6 +82,7 @@ class TableReader {
         for (const Symmetry s : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
             if (value == name_of(s)) {
                 table_.symmetry = s;
+                table_.symmetry_declared = true;
                 return;
             }
         const std::array<std::string, 3> known = {"orthotropic", "half-turn", "none"};
@@ -179,7 +182,8 @@ bool ReflectanceTable::has_sigma() const {
 }
 
 ReflectanceTable ReflectanceTable::normal_incidence() const {
-    ReflectanceTable result{.keys = keys, .symmetry = symmetry};
+    ReflectanceTable result{
+        .keys = keys, .symmetry = symmetry, .symmetry_declared = symmetry_declared};
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(result.rows),
                  [](const ReflectanceRow &r) { return r.theta_i < 1e-9; });
     return result;

@@ -104,6 +104,7 @@ TEST_F(ReflectanceFile, CommentsBlanksAndCarriageReturnsAreTolerated) {
     EXPECT_EQ(table.rows[1].brdf_per_sr, 1e-3);
     EXPECT_EQ(table.keys.at("key"), "a: b");
     EXPECT_EQ(table.symmetry, Symmetry::orthotropic);
+    EXPECT_FALSE(table.symmetry_declared);
 }
 
 TEST_F(ReflectanceFile, BadOnesAreRefusedWithLineAndColumn) {
@@ -230,7 +231,8 @@ TEST_F(FabricFile, BadOnesAreRefusedWithLineAndColumn) {
     struct Bad {
         std::string text, where, what;
     };
-    const std::string views = "[views]\ntheta_deg = [0, 30]\nphi_deg = [0, 0]\n";
+    const std::string with_views = kStart + "symmetry = \"none\"\n[views]\n"; // lines 3 and 4
+    const std::string views = with_views + "theta_deg = [0, 30]\nphi_deg = [0, 0]\n";
     for (const Bad &bad : {
              Bad{"name = \"f\"\n", ":1:1", "schema"},
              {"schema = \"tsuya-fabric 9\"\nname = \"f\"\n", ":1:10", "tsuya-fabric 9"},
@@ -248,11 +250,12 @@ TEST_F(FabricFile, BadOnesAreRefusedWithLineAndColumn) {
              {kStart + "[dye]\nwavelength_nm = [400, 500]\nvalue = [0, 2]\n", ":3:1", "500"},
              {kStart + "[dye]\nwavelength_nm = [400, \"a\"]\nvalue = [0, 1]\n", ":4:17",
               "wavelength_nm"},
-             {kStart + views + "brdf_per_sr = [1]\n", ":6:15", "length"},
-             {kStart + views + "brdf_per_sr = [1, nan]\n", ":6:15", "brdf_per_sr"},
-             {kStart + views + "brdf_per_sr = [1, -1]\n", ":6:15", "view 1"},
-             {kStart + "[views]\ntheta_deg = [0, 95]\nphi_deg = [0, 0]\nbrdf_per_sr = [1, 1]\n",
-              ":6:15", "view 1"},
+             {views + "brdf_per_sr = [1]\n", ":7:15", "length"},
+             {views + "brdf_per_sr = [1, nan]\n", ":7:15", "brdf_per_sr"},
+             {views + "brdf_per_sr = [1, -1]\n", ":7:15", "view 1"},
+             {with_views + "theta_deg = [0, 95]\nphi_deg = [0, 0]\nbrdf_per_sr = [1, 1]\n", ":7:15",
+              "view 1"},
+             {kStart + "[views]\n", ":1:1", "'symmetry' is missing"},
              {kStart + "[smoothness]\nweft_support = 1\n", ":3:1", "missing"},
              {kStart + "[[", ":3:3", ""},
          }) {

@@ -30,6 +30,7 @@ struct ReflectanceRow {
 struct ReflectanceTable {
     std::map<std::string, std::string> keys{}; ///< every `# key: value` but symmetry
     Symmetry symmetry = Symmetry::orthotropic;
+    bool symmetry_declared = true; ///< false: the file says nothing, and orthotropic is assumed
     std::vector<ReflectanceRow> rows{};
 
     bool has_sigma() const;
