@@ -280,8 +280,9 @@ TEST_F(FabricFile, UnknownKeysAreRefusedWithTheNearestKnown) {
 }
 
 TEST_F(FabricFile, TooFewViewsNameTheFile) {
-    const auto name = file("f.fabric.toml", kStart + "[views]\ntheta_deg = [0, 30]\n"
-                                                     "phi_deg = [0, 0]\nbrdf_per_sr = [1, 1]\n");
+    const auto name =
+        file("f.fabric.toml", kStart + "symmetry = \"none\"\n[views]\ntheta_deg = [0, 30]\n"
+                                       "phi_deg = [0, 0]\nbrdf_per_sr = [1, 1]\n");
     EXPECT_EQ(problems_of(read_fabric, name)[0].where, ": views");
 }
 
