@@ -10,6 +10,7 @@
 #include "tsuya/color/lamp.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/sdk/fabric.h"
+#include "tsuya/sdk/model.h"
 
 namespace tsuya::program {
 namespace {
@@ -76,8 +77,10 @@ class ListCommand final : public Command {
                 return material == fabric.keys.end() ? fabric.name : material->second;
             });
         }
-        return {{"takeda", "great-circle model through a few measured views"},
-                {"lambert", "ideal diffuser"}};
+        std::vector<Entry> models;
+        for (const ModelName &model : model_names())
+            models.push_back({std::string(model.name), std::string(model.description)});
+        return models;
     }
 
     CLI::App &app_;
