@@ -1,0 +1,103 @@
+/// The weaves that can be named. Their numbers are typical trade constructions, not measurements of
+/// a sample: ends and picks per centimetre and yarn counts as handbooks and mill lists give them
+/// ([Adanur], [Robinson]); widths follow from the count. A yarn of n filaments of d decitex and
+/// density rho has n d / rho of fibre in its section, which fills about 0.7 of the race-track
+/// ([Hearle] gives 0.6 to 0.75 for yarns of low twist); the flattening of a yarn of low twist in a
+/// dense weave is 0.2 to 0.5 ([Peirce] treats it as a free parameter).
+#include <algorithm>
+
+#include "tsuya/lab/weave.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab {
+namespace {
+
+/// Lining and dress satin: warp 56 dtex / 24 filaments, weft 84 dtex / 36 filaments.
+Weave black_polyester_satin() {
+    Yarn warp{.per_cm = 76, .width = 0.125e-3, .flattening = 0.40, .filaments = 24};
+    Yarn weft{.per_cm = 34, .width = 0.200e-3, .flattening = 0.226, .filaments = 36};
+    return {"black polyester satin", parse_draft("satin 5"), warp, weft};
+}
+
+/// 19 momme: warp two ends of 20/22 denier organzine as one, weft hard-twisted crepe of three,
+/// degummed: fibres of 1.1 dtex, triangular with rounded corners.
+Weave silk_charmeuse() {
+    Yarn warp{.per_cm = 130,
+              .width = 0.074e-3,
+              .flattening = 0.78,
+              .filaments = 30,
+              .section = FilamentSection::triangular,
+              .corner_rounding = 0.4,
+              .material = FiberMaterial::silk,
+              .transmission = {0.8, 0.78, 0.7}};
+    Yarn weft = warp;
+    weft.per_cm = 45;
+    weft.width = 0.092e-3;
+    weft.flattening = 0.76;
+    weft.filaments = 45;
+    weft.twist_per_m = 2000;
+    return {"silk charmeuse", parse_draft("satin 8"), warp, weft};
+}
+
+/// "190T": 112 ends and 78 picks to the inch of 75 dtex / 24 filaments.
+Weave polyester_taffeta() {
+    Yarn warp{.per_cm = 44, .width = 0.180e-3, .flattening = 0.253, .filaments = 24};
+    Yarn weft{.per_cm = 31, .width = 0.200e-3, .flattening = 0.203, .filaments = 24};
+    return {"polyester taffeta", parse_draft("plain"), warp, weft};
+}
+
+/// Viscose lining: 84 dtex / 24 filaments both ways, black.
+Weave twill_lining() {
+    Yarn warp{.per_cm = 50,
+              .width = 0.190e-3,
+              .flattening = 0.23,
+              .filaments = 24,
+              .material = FiberMaterial::cellulose};
+    Yarn weft = warp;
+    weft.per_cm = 34;
+    weft.width = 0.200e-3;
+    weft.flattening = 0.21;
+    return {"twill lining", parse_draft("twill 2/2"), warp, weft};
+}
+
+/// Silk taffeta, red warp and green weft; dyes chosen by us.
+Weave shot_silk() {
+    Yarn warp{.per_cm = 56,
+              .width = 0.150e-3,
+              .flattening = 0.27,
+              .filaments = 40,
+              .section = FilamentSection::triangular,
+              .corner_rounding = 0.4,
+              .material = FiberMaterial::silk,
+              .transmission = {0.65, 0.08, 0.10}};
+    Yarn weft = warp;
+    weft.per_cm = 40;
+    weft.width = 0.190e-3;
+    weft.flattening = 0.21;
+    weft.transmission = {0.08, 0.45, 0.15};
+    return {"shot silk", parse_draft("plain"), warp, weft};
+}
+
+} // namespace
+
+std::vector<std::string> weave_names() {
+    return {"black polyester satin", "silk charmeuse", "polyester taffeta", "twill lining",
+            "shot silk"};
+}
+
+Weave weave(std::string_view name, const std::string &where) {
+    if (name == "black polyester satin")
+        return black_polyester_satin();
+    if (name == "silk charmeuse")
+        return silk_charmeuse();
+    if (name == "polyester taffeta")
+        return polyester_taffeta();
+    if (name == "twill lining")
+        return twill_lining();
+    if (name == "shot silk")
+        return shot_silk();
+    throw Error({"unknown weave \"" + std::string(name) + "\"", where,
+                 accepted_names(name, weave_names())});
+}
+
+} // namespace tsuya::lab
