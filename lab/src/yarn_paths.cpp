@@ -28,6 +28,12 @@ Window window_of(const RaceTrack &crossed, double other_radius, double step, int
         const double beyond = std::max(0.0, std::abs(m) * step - crossed.half_flat);
         window.room.push_back(std::sqrt(std::max(0.0, sum * sum - beyond * beyond)) - other_radius);
     }
+    // Between places the path cuts the corner of a round obstacle: it is raised by as much.
+    const std::vector<double> exact = window.room;
+    const double most = step * step / (4 * sum);
+    for (std::size_t k = 1; k + 1 < exact.size(); ++k)
+        window.room[k] +=
+            std::clamp(exact[k] - (exact[k - 1] + exact[k + 1]) / 2, 0.0, 4 * most) / 4;
     return window;
 }
 
