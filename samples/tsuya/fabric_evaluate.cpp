@@ -1,10 +1,8 @@
 // tsuya fabric evaluate: how far the models of a fabric lie from a table.
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
-#include <numbers>
 #include <sstream>
 
 #include "command.h"
@@ -14,7 +12,6 @@
 namespace tsuya::program {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kWidth = 16;
 
 struct Result {
@@ -68,8 +65,8 @@ class EvaluateCommand final : public Command {
         for (const Result &result : results) {
             Json directions = Json::array();
             for (const LightAccuracy &light : result.accuracy.directions) {
-                Json direction{{"theta_i_deg", in_degrees(light.theta_i)},
-                               {"phi_i_deg", in_degrees(light.phi_i)},
+                Json direction{{"theta_i_deg", degrees_of(light.theta_i)},
+                               {"phi_i_deg", degrees_of(light.phi_i)},
                                {"views", light.views}};
                 direction.update(json_of(light.error));
                 directions.push_back(std::move(direction));
@@ -89,8 +86,8 @@ class EvaluateCommand final : public Command {
                 std::cout << std::setw(kWidth) << measure.name;
             std::cout << "\n" << std::fixed;
             for (const LightAccuracy &light : result.accuracy.directions) {
-                std::cout << std::setprecision(1) << std::setw(11) << in_degrees(light.theta_i)
-                          << std::setw(11) << in_degrees(light.phi_i) << std::setw(7)
+                std::cout << std::setprecision(1) << std::setw(11) << degrees_of(light.theta_i)
+                          << std::setw(11) << degrees_of(light.phi_i) << std::setw(7)
                           << light.views;
                 print_measures(light.error);
             }
@@ -110,9 +107,6 @@ class EvaluateCommand final : public Command {
         }
         std::cout << "\n";
     }
-
-    // Whole micro-degrees: angles of a file are read as radians
-    static double in_degrees(double angle) { return std::round(angle / kDegree * 1e6) / 1e6; }
 
     CLI::App &app_;
     std::filesystem::path fabric_{}, table_{};

@@ -1,6 +1,7 @@
 #include "json_file.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "tsuya/sdk/file.h"
 
@@ -98,6 +99,11 @@ Json json_of(const ErrorMeasures &error) {
         json[std::string(measure.name)] = value && std::isfinite(*value) ? Json(*value) : Json();
     }
     return json;
+}
+
+double degrees_of(double angle) {
+    constexpr double kSteps = 1e6;
+    return std::round(angle * 180 / std::numbers::pi * kSteps) / kSteps;
 }
 
 void write_json(const std::filesystem::path &file, const Json &json) {

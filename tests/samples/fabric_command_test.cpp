@@ -1,11 +1,15 @@
 // tsuya fabric, from end to end.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include <nlohmann/json.hpp>
 
 #include "samples/process.h"
 #include "samples/scratch.h"
+#include "tsuya/color/image_file.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya::program {
 namespace {
@@ -93,6 +97,148 @@ TEST(FabricEvaluate, RefusesWrongInput) {
         scratch.write("plain.fabric.toml", "schema = \"tsuya-fabric 1\"\nname = \"plain\"\n")
             .string();
     EXPECT_EQ(status({plain, "--against", table}, "no measured views"), 1);
+}
+
+std::vector<std::string> simulation(const std::string &out, const std::string &photons) {
+    return {"simulate", "polyester taffeta", "-o", out, "--photons", photons, "--step", "15"};
+}
+
+TEST(FabricSimulate, MakesATableThatIsEqualForEqualCalls) {
+    const Scratch scratch;
+    const std::string one = (scratch / "n/one.csv").string(), two = (scratch / "two.csv").string();
+    std::vector<std::string> call = simulation(one, "30000");
+    call.insert(call.end(), {"--threads", "1", "--json"});
+    const Outcome done = run(scratch, call);
+    ASSERT_EQ(done.status, 0) << done.err;
+    const json report = json::parse(done.out);
+    EXPECT_EQ(report.at("schema"), "tsuya-fabric-simulate 1");
+    EXPECT_EQ(report.at("interrupted"), false);
+    EXPECT_GE(report.at("photons"), 30000);
+    ASSERT_EQ(report.at("lights").size(), 1u);
+    EXPECT_GT(report["lights"][0].at("reflected"), 0.001);
+    EXPECT_LT(report["lights"][0].at("reflected"), 0.2); // black
+    const ReflectanceTable table = read_reflectance_table(one);
+    EXPECT_TRUE(table.has_sigma());
+    EXPECT_EQ(table.rows.size(), 5u * 7 + 1);
+    EXPECT_EQ(table.keys.at("material"), "polyester taffeta");
+    EXPECT_NE(table.keys.at("provenance").find("seed 1"), std::string::npos);
+    EXPECT_FALSE(fs::exists(one + ".checkpoint"));
+
+    ASSERT_EQ(run(scratch, simulation(two, "30000")).status, 0); // all threads
+    EXPECT_EQ(read_file(one), read_file(two));
+    call = simulation(two, "30000");
+    call.insert(call.end(), {"--seed", "2"});
+    ASSERT_EQ(run(scratch, call).status, 0);
+    EXPECT_NE(read_file(one), read_file(two));
+
+    // The table fits, and its own directions can be asked for again
+    const std::string toml = (scratch / "taffeta.fabric.toml").string();
+    EXPECT_EQ(run(scratch, {"fit", one, "-o", toml}).status, 0);
+    EXPECT_EQ(run(scratch, {"simulate", "twill lining", "-o", two, "--photons", "10000",
+                            "--directions", one})
+                  .status,
+              0);
+    EXPECT_EQ(read_reflectance_table(two).rows.size(), table.rows.size());
+}
+
+TEST(FabricSimulate, ResumesBitIdentically) {
+    const Scratch scratch;
+    const std::string whole = (scratch / "whole.csv").string(),
+                      parts = (scratch / "parts.csv").string();
+    const std::string photons = "1500000";
+    std::vector<std::string> call = simulation(parts, photons);
+    call.insert(call.begin(), "fabric");
+    call.insert(call.end(), {"--progress", "json"});
+    const Outcome interrupted = run_program(call, scratch.folder(), [](const std::string &err) {
+        return err.find("\"fraction\":0.0") != std::string::npos &&
+               err.find("measure") != std::string::npos;
+    });
+    ASSERT_EQ(interrupted.status, 3) << interrupted.err;
+    EXPECT_NE(interrupted.err.find("--resume"), std::string::npos);
+    ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
+    call = simulation(parts, photons);
+    call.insert(call.end(), {"--resume", "--json"});
+    const Outcome resumed = run(scratch, call);
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_LT(json::parse(resumed.out).at("photons"), 1500000); // or nothing was resumed
+    EXPECT_FALSE(fs::exists(parts + ".checkpoint"));
+    ASSERT_EQ(run(scratch, simulation(whole, photons)).status, 0);
+    EXPECT_EQ(read_file(parts), read_file(whole));
+}
+
+TEST(FabricSimulate, RefusesWrongInput) {
+    const Scratch scratch;
+    const std::string out = (scratch / "n/a.csv").string();
+    const auto status = [&](std::vector<std::string> call, const std::string &said) {
+        call.insert(call.begin(), "simulate");
+        const Outcome wrong = run(scratch, call);
+        EXPECT_NE(wrong.err.find(said), std::string::npos) << wrong.err;
+        EXPECT_EQ(wrong.out, "");
+        EXPECT_FALSE(fs::exists(scratch / "n"));
+        return wrong.status;
+    };
+    EXPECT_EQ(status({"polyester taffeta"}, "--output"), 2);
+    EXPECT_EQ(status({"polyester taffeta", "-o", out, "--photons", "0"}, "--photons"), 2);
+    EXPECT_EQ(status({"polyester tafetta", "-o", out}, "did you mean polyester taffeta"), 1);
+    EXPECT_EQ(status({"no.wif", "-o", out}, "no.wif"), 1);
+    EXPECT_EQ(status({"polyester taffeta", "-o", (scratch / "n/a.txt").string()}, ".csv"), 1);
+    EXPECT_EQ(status({"polyester taffeta", "-o", out, "--directions", "no.csv"}, "no.csv"), 1);
+    const std::string bad = scratch.write("bad.toml", "[weave]\ndraft = \"satan 5\"\n").string();
+    EXPECT_EQ(status({bad, "-o", out}, "bad.toml:2"), 1);
+}
+
+bool has_gnuplot() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
+
+TEST(FabricShow, DrawsLobesAndMap) {
+    if (!has_gnuplot())
+        GTEST_SKIP() << "gnuplot is not installed";
+    const Scratch scratch;
+    const fs::path png = scratch / "n/it's.png", svg = scratch / "n/lobes.svg";
+    const std::string table = small_table(scratch);
+    const Outcome drawn =
+        run(scratch, {"show", satin().string(), "-o", png.string(), "--against", table});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(drawn.out, png.string() + "\n");
+    const Image image = read_image(png);
+    EXPECT_EQ(image.width, 1200);
+    EXPECT_EQ(image.height, 1000);
+    const Outcome bare =
+        run(scratch, {"show", satin().string(), "-o", svg.string(), "--model", "half_vector"});
+    ASSERT_EQ(bare.status, 0) << bare.err;
+    const std::string text = read_file(svg);
+    for (const char *label : {"Light in the warp plane", "Light in the bias plane", "theta_r",
+                              "1/sr", "75°", "BRDF under light from straight above"})
+        EXPECT_NE(text.find(label), std::string::npos) << label;
+    std::size_t files = 0; // nothing temporary is left
+    for ([[maybe_unused]] const auto &entry : fs::directory_iterator(scratch / "n"))
+        ++files;
+    EXPECT_EQ(files, 2u);
+}
+
+TEST(FabricShow, RefusesWrongInput) {
+    const Scratch scratch;
+    const Outcome kind =
+        run(scratch, {"show", satin().string(), "-o", (scratch / "n/a.pdf").string()});
+    EXPECT_EQ(kind.status, 1);
+    EXPECT_NE(kind.err.find("expected a name that ends in .svg"), std::string::npos) << kind.err;
+    const Outcome model = run(scratch, {"show", satin().string(), "-o",
+                                        (scratch / "a.svg").string(), "--model", "takedo"});
+    EXPECT_EQ(model.status, 1);
+    EXPECT_NE(model.err.find("did you mean takeda"), std::string::npos) << model.err;
+    EXPECT_FALSE(fs::exists(scratch / "a.svg"));
+}
+
+// A PATH with no program in it
+TEST(FabricShow, NamesThePackageOfGnuplot) {
+    const Scratch scratch;
+    const std::string path = std::getenv("PATH") ? std::getenv("PATH") : "";
+    setenv("PATH", scratch.folder().c_str(), 1);
+    const Outcome refused =
+        run(scratch, {"show", satin().string(), "-o", (scratch / "a.svg").string()});
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("gnuplot-nox"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(scratch / "a.svg"));
 }
 
 } // namespace
