@@ -1,26 +1,27 @@
-/// The weaves that can be named. Their numbers are typical trade constructions, not measurements of
-/// a sample: ends and picks per centimetre and yarn counts as handbooks and mill lists give them
-/// ([Adanur], [Robinson]); widths follow from the count. A yarn of n filaments of d decitex and
-/// density rho has n d / rho of fibre in its section, which fills about 0.7 of the race-track
-/// ([Hearle] gives 0.6 to 0.75 for yarns of low twist); the flattening of a yarn of low twist in a
-/// dense weave is 0.2 to 0.5 ([Peirce] treats it as a free parameter).
-#include <algorithm>
-
+/// The weaves that can be named. Their numbers are typical of such cloth in the trade and ours: no
+/// sample was measured and no one source gives them all ([Adanur] and [Robinson] explain the
+/// constructions and the counts). What ties them together: the width is a little less than the
+/// spacing in dense warps, and the thickness is that at which the filaments, packed in rings, are
+/// as thick as their count says: a circle of d decitex and density rho (polyester 1380, silk 1340,
+/// viscose 1520 kg/m^3) has the area d / rho. Round filaments fill 0.55 to 0.7 of the yarn then.
+/// Multifilament yarns of low twist lie flat: thickness over width 0.2 to 0.5, which [Peirce]
+/// leaves free.
 #include "tsuya/lab/weave.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
 namespace {
 
-/// Lining and dress satin: warp 56 dtex / 24 filaments, weft 84 dtex / 36 filaments.
+/// Dress satin: warp 50 dtex / 24 filaments, weft 84 dtex / 36 filaments. Nothing that enters a
+/// black filament leaves it.
 Weave black_polyester_satin() {
     Yarn warp{.per_cm = 76, .width = 0.125e-3, .flattening = 0.40, .filaments = 24};
     Yarn weft{.per_cm = 34, .width = 0.200e-3, .flattening = 0.226, .filaments = 36};
     return {"black polyester satin", parse_draft("satin 5"), warp, weft};
 }
 
-/// 19 momme: warp two ends of 20/22 denier organzine as one, weft hard-twisted crepe of three,
-/// degummed: fibres of 1.1 dtex, triangular with rounded corners.
+/// About 19 momme: warp two ends of 20/22 denier raw silk as one, weft three with a crepe's twist,
+/// degummed: fibres near 1 dtex, triangular with rounded corners, undyed.
 Weave silk_charmeuse() {
     Yarn warp{.per_cm = 130,
               .width = 0.074e-3,
@@ -41,22 +42,22 @@ Weave silk_charmeuse() {
 
 /// "190T": 112 ends and 78 picks to the inch of 75 dtex / 24 filaments.
 Weave polyester_taffeta() {
-    Yarn warp{.per_cm = 44, .width = 0.180e-3, .flattening = 0.253, .filaments = 24};
-    Yarn weft{.per_cm = 31, .width = 0.200e-3, .flattening = 0.203, .filaments = 24};
+    Yarn warp{.per_cm = 44, .width = 0.180e-3, .flattening = 0.295, .filaments = 24};
+    Yarn weft{.per_cm = 31, .width = 0.200e-3, .flattening = 0.265, .filaments = 24};
     return {"polyester taffeta", parse_draft("plain"), warp, weft};
 }
 
-/// Viscose lining: 84 dtex / 24 filaments both ways, black.
+/// Twill lining of viscose: 84 dtex / 24 filaments both ways, black.
 Weave twill_lining() {
     Yarn warp{.per_cm = 50,
               .width = 0.190e-3,
-              .flattening = 0.23,
+              .flattening = 0.28,
               .filaments = 24,
               .material = FiberMaterial::cellulose};
     Yarn weft = warp;
     weft.per_cm = 34;
     weft.width = 0.200e-3;
-    weft.flattening = 0.21;
+    weft.flattening = 0.265;
     return {"twill lining", parse_draft("twill 2/2"), warp, weft};
 }
 
@@ -64,7 +65,7 @@ Weave twill_lining() {
 Weave shot_silk() {
     Yarn warp{.per_cm = 56,
               .width = 0.150e-3,
-              .flattening = 0.27,
+              .flattening = 0.31,
               .filaments = 40,
               .section = FilamentSection::triangular,
               .corner_rounding = 0.4,
@@ -73,7 +74,7 @@ Weave shot_silk() {
     Yarn weft = warp;
     weft.per_cm = 40;
     weft.width = 0.190e-3;
-    weft.flattening = 0.21;
+    weft.flattening = 0.185;
     weft.transmission = {0.08, 0.45, 0.15};
     return {"shot silk", parse_draft("plain"), warp, weft};
 }

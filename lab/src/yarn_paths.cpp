@@ -37,7 +37,7 @@ Window window_of(const RaceTrack &crossed, double other_radius, double step, int
     return window;
 }
 
-/// Finds the heights of least energy by projected gradient descent with momentum ([Nesterov],
+/// Finds the heights of least energy by projected gradient descent with momentum ([ODonoghue],
 /// restarted where it overshoots).
 class Solver {
   public:

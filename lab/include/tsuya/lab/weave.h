@@ -3,7 +3,8 @@
 /// A weave and its yarns, as authored: by name, from a TOML file or from a WIF draft.
 ///
 ///     [weave]
-///     draft = "satin 5"          # or plan = ["X.X", ...]: a row a pick, the last pick first
+///     draft = "satin 5"          # or plan = ["X.", ".X"]: a row a pick, the last pick first
+///     preset = "silk charmeuse"  # where all that is not said here comes from
 ///     name = "my satin"
 ///     [warp]                     # [weft] alike
 ///     per_cm = 76                # ends or picks per centimetre
@@ -54,7 +55,7 @@ struct Weave {
     Yarn warp{}, weft{};
 };
 
-/// `polyester black satin` and so on.
+/// `black polyester satin`, `silk charmeuse`, `polyester taffeta`, `twill lining`, `shot silk`.
 std::vector<std::string> weave_names();
 /// A preset. Throws Error naming `where` with the names that would be accepted.
 Weave weave(std::string_view name, const std::string &where = "weave");
