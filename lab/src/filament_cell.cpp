@@ -81,23 +81,28 @@ Path divide(const Filament &filament, const glm::dvec3 &step, double scale, doub
     return path;
 }
 
-// Stations from the one before `low` to the one after `high` along `axis`, with a shift across.
+// The stations of all segments that reach into low to high along `axis`, with a shift across.
 std::vector<Path::Station> stretch(const Path &path, int axis, double low, double high,
                                    const glm::dvec3 &shift) {
-    double least = path.station[0].position[axis], most = least;
-    for (const Path::Station &s : path.station) {
-        least = std::min(least, s.position[axis]);
-        most = std::max(most, s.position[axis]);
-    }
-    const double period = path.step[axis];
-    const int first = static_cast<int>(std::floor((low - most) / period));
-    const int last = static_cast<int>(std::ceil((high - least) / period)) + 1;
+    const auto n = static_cast<std::ptrdiff_t>(path.station.size());
+    const auto station = [&](std::ptrdiff_t i) {
+        const std::ptrdiff_t period = i >= 0 ? i / n : -((n - 1 - i) / n);
+        Path::Station s = path.station[static_cast<std::size_t>(i - period * n)];
+        s.position += path.step * static_cast<double>(period) + shift;
+        return s;
+    };
+    // Paths go forward on the whole: look one period farther than needed
+    const double start = path.station[0].position[axis], period = path.step[axis];
+    std::ptrdiff_t first =
+        (static_cast<std::ptrdiff_t>(std::floor((low - start) / period)) - 1) * n;
+    std::ptrdiff_t last = (static_cast<std::ptrdiff_t>(std::ceil((high - start) / period)) + 1) * n;
+    while (first < last && station(first + 1).position[axis] < low)
+        ++first;
+    while (last > first && station(last - 1).position[axis] > high)
+        --last;
     std::vector<Path::Station> all;
-    for (int k = first; k <= last; ++k)
-        for (Path::Station s : path.station) {
-            s.position += path.step * static_cast<double>(k) + shift;
-            all.push_back(s);
-        }
+    for (std::ptrdiff_t i = first; i <= last; ++i)
+        all.push_back(station(i));
     return all;
 }
 

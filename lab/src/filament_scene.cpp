@@ -113,58 +113,100 @@ Meeting on_tube(const Tubes &tubes, std::uint32_t triangle, float u, float v,
 
 } // namespace
 
+// The part of a ray within the cell.
+struct FilamentScene::Leg {
+    float side;  // distance to the nearer side
+    float end;   // distance to the top or bottom
+    int crossed; // axis of that side
+
+    float length() const { return std::min(side, end) * 1.0001f; }
+    bool leaves() const { return end <= side; }
+    // To where the ray comes in again
+    void wrap(glm::vec3 &origin, const glm::vec3 &direction, const glm::vec2 &size) const {
+        origin += side * direction;
+        origin[crossed] = direction[crossed] > 0 ? 0 : size[crossed];
+    }
+};
+
+FilamentScene::Leg FilamentScene::leg(glm::vec3 &origin, const glm::vec3 &direction) const {
+    // A point outside of the cell is the same as one inside
+    for (int c = 0; c < 2; ++c)
+        if (origin[c] < 0 || origin[c] > cell_.size[c])
+            origin[c] -= cell_.size[c] * std::floor(origin[c] / cell_.size[c]);
+    const float x = to_side(origin.x, direction.x, cell_.size.x);
+    const float y = to_side(origin.y, direction.y, cell_.size.y);
+    const float height = (direction.z > 0 ? cell_.top : cell_.bottom) - origin.z;
+    const float end = direction.z == 0 ? std::numeric_limits<float>::infinity()
+                                       : std::max(0.0f, height / direction.z);
+    return {std::min(x, y), end, x <= y ? 0 : 1};
+}
+
+namespace {
+
+RTCRay make_ray(const glm::vec3 &origin, const glm::vec3 &direction, float length) {
+    return {.org_x = origin.x,
+            .org_y = origin.y,
+            .org_z = origin.z,
+            .tnear = 0,
+            .dir_x = direction.x,
+            .dir_y = direction.y,
+            .dir_z = direction.z,
+            .time = 0,
+            .tfar = length,
+            .mask = ~0u,
+            .id = 0,
+            .flags = 0};
+}
+
+} // namespace
+
 Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Meeting &meeting) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    const float to_end = direction.z > 0 ? cell_.top : cell_.bottom;
     for (int step = 0; step < kMostSteps; ++step) {
-        // A point outside of the cell is the same as one inside
-        for (int c = 0; c < 2; ++c)
-            if (origin[c] < 0 || origin[c] > cell_.size[c])
-                origin[c] -= cell_.size[c] * std::floor(origin[c] / cell_.size[c]);
-        const float side_x = to_side(origin.x, direction.x, cell_.size.x);
-        const float side_y = to_side(origin.y, direction.y, cell_.size.y);
-        const float side = std::min(side_x, side_y);
-        const float end = direction.z == 0 ? std::numeric_limits<float>::infinity()
-                                           : std::max(0.0f, (to_end - origin.z) / direction.z);
-        RTCRayHit query{};
-        query.ray = {.org_x = origin.x,
-                     .org_y = origin.y,
-                     .org_z = origin.z,
-                     .tnear = 0,
-                     .dir_x = direction.x,
-                     .dir_y = direction.y,
-                     .dir_z = direction.z,
-                     .time = 0,
-                     .tfar = std::min(side, end) * 1.0001f,
-                     .mask = ~0u,
-                     .id = 0,
-                     .flags = 0};
+        const Leg part = leg(origin, direction);
+        RTCRayHit query;
+        query.ray = make_ray(origin, direction, part.length());
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(state_->scene, &context, &query);
-        if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
-            const glm::vec3 point = origin + query.ray.tfar * direction;
-            meeting = query.hit.geomID == kCones
-                          ? on_cone(cell_.cones, query.hit.primID, point)
-                          : on_tube(cell_.tubes, query.hit.primID, query.hit.u, query.hit.v, point);
-            const glm::vec3 face{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
-            if (glm::dot(meeting.normal, direction) < 0)
-                return Fate::met;
-            if (glm::dot(face, direction) < 0) { // smooth normals turn away at the silhouette
-                meeting.normal = glm::normalize(face);
-                return Fate::met;
-            }
-            // From inside: filaments in contact may share a little space
-            origin = point + kPastWall * direction;
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            if (part.leaves())
+                return direction.z > 0 ? Fate::above : Fate::below;
+            part.wrap(origin, direction, cell_.size);
             continue;
         }
-        if (end <= side)
-            return direction.z > 0 ? Fate::above : Fate::below;
-        origin += side * direction;
-        const int crossed = side_x <= side_y ? 0 : 1;
-        origin[crossed] = direction[crossed] > 0 ? 0 : cell_.size[crossed];
+        const glm::vec3 point = origin + query.ray.tfar * direction;
+        meeting = query.hit.geomID == kCones
+                      ? on_cone(cell_.cones, query.hit.primID, point)
+                      : on_tube(cell_.tubes, query.hit.primID, query.hit.u, query.hit.v, point);
+        if (glm::dot(meeting.normal, direction) < 0)
+            return Fate::met;
+        const glm::vec3 face{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+        if (glm::dot(face, direction) < 0) { // smooth normals turn away at the silhouette
+            meeting.normal = glm::normalize(face);
+            return Fate::met;
+        }
+        // From inside: filaments in contact may share a little space
+        origin = point + kPastWall * direction;
     }
     return Fate::lost;
+}
+
+bool FilamentScene::escapes(glm::vec3 origin, const glm::vec3 &direction) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Leg part = leg(origin, direction);
+        RTCRay ray = make_ray(origin, direction, part.length());
+        rtcOccluded1(state_->scene, &context, &ray);
+        if (ray.tfar < 0)
+            return false;
+        if (part.leaves())
+            return direction.z > 0;
+        part.wrap(origin, direction, cell_.size);
+    }
+    return false;
 }
 
 Meeting FilamentScene::around(const Meeting &meeting, float u) const {

@@ -33,6 +33,9 @@ class FilamentScene {
     // thousands of cells.
     Fate trace(glm::vec3 origin, const glm::vec3 &direction, Meeting &meeting) const;
 
+    // Whether a ray leaves the cloth, upwards. Filaments that share space hide each other here.
+    bool escapes(glm::vec3 origin, const glm::vec3 &direction) const;
+
     // A point somewhere on the outline of the filament that was met, at the same place along it.
     // \param u in [0, 1)
     Meeting around(const Meeting &meeting, float u) const;
@@ -41,6 +44,9 @@ class FilamentScene {
 
   private:
     struct State;
+    struct Leg;
+    Leg leg(glm::vec3 &origin, const glm::vec3 &direction) const;
+
     FilamentCell cell_;
     std::unique_ptr<State> state_;
 };

@@ -203,8 +203,7 @@ bool Goniometer::round() {
         task.sums = Sums(groups_[task.light].rows.size());
         const Random random(settings_.seed, static_cast<std::uint32_t>(task.light),
                             static_cast<std::uint32_t>(task.batch));
-        task.rays = walk(scene_, surfaces_, *groups_[task.light].views, rules, kPhotonsPerBatch,
-                         random, task.sums);
+        task.rays = walk(scene_, surfaces_, *groups_[task.light].views, rules, random, task.sums);
         task.done = true;
     });
     // In the order of the batches; what comes after one that is missing is made again

@@ -10,6 +10,19 @@ namespace {
 constexpr float kOffset = 2e-3f;      // of a ray from the surface that it leaves, radii
 constexpr float kLeastCosine = 1e-5f; // of a photon with the surface
 
+// A batch has one photon in each of 128 x 64 parts of the cell, in an order in which neighbours
+// follow each other and meet the same part of the acceleration structure.
+const glm::vec2 kStrata{128, 64};
+static_assert(kPhotonsPerBatch == 128 * 64);
+
+std::uint32_t every_second_bit(std::uint32_t x) {
+    x &= 0x55555555u;
+    x = (x | x >> 1) & 0x33333333u;
+    x = (x | x >> 2) & 0x0f0f0f0fu;
+    x = (x | x >> 4) & 0x00ff00ffu;
+    return (x | x >> 8) & 0x0000ffffu;
+}
+
 // Axes about a normal.
 struct Basis {
     glm::vec3 x, y, z;
@@ -32,7 +45,9 @@ class Walker {
            const LightViews &light, const WalkRules &rules, Random random)
         : scene_(scene), surfaces_(surfaces), light_(light), rules_(rules), random_(random) {}
 
-    void photon(Sums &sums);
+    // \param place of the start, a share of the cell
+    void photon(const glm::vec2 &place, Sums &sums);
+    glm::vec2 jitter() { return {random_.unit(), random_.unit()}; }
     std::uint64_t rays() const { return rays_; }
 
   private:
@@ -68,8 +83,10 @@ class Walker {
 
 void Walker::see(const Meeting &m, std::uint32_t view, double per_sr) {
     const glm::vec3 &to = light_.to_viewer[view];
-    Meeting other;
-    if (per_sr > 0 && trace(outside(m), to, other) == Fate::above)
+    if (!(per_sr > 0))
+        return;
+    ++rays_;
+    if (scene_.escapes(outside(m), to))
         seen_.push_back({view, per_sr / to.z});
 }
 
@@ -148,11 +165,10 @@ void Walker::store(Sums &sums) {
     }
 }
 
-void Walker::photon(Sums &sums) {
+void Walker::photon(const glm::vec2 &place, Sums &sums) {
     const FilamentCell &cell = scene_.cell();
     seen_.clear();
-    glm::vec3 origin{random_.unit() * cell.size.x, random_.unit() * cell.size.y,
-                     cell.top + kOffset};
+    glm::vec3 origin(place * cell.size, cell.top + kOffset);
     glm::vec3 direction = -light_.to_light;
     double energy = 1;
     for (int bounce = 0;; ++bounce) {
@@ -202,11 +218,12 @@ void Sums::add(const Sums &other) {
 }
 
 std::uint64_t walk(const FilamentScene &scene, const std::vector<RoughSurface> &surfaces,
-                   const LightViews &light, const WalkRules &rules, std::uint64_t photons,
-                   Random random, Sums &sums) {
+                   const LightViews &light, const WalkRules &rules, Random random, Sums &sums) {
     Walker walker(scene, surfaces, light, rules, random);
-    for (std::uint64_t i = 0; i < photons; ++i)
-        walker.photon(sums);
+    for (std::uint32_t i = 0; i < kPhotonsPerBatch; ++i) {
+        const glm::vec2 corner(every_second_bit(i), every_second_bit(i >> 1));
+        walker.photon((corner + walker.jitter()) / kStrata, sums);
+    }
     return walker.rays();
 }
 

@@ -40,9 +40,8 @@ struct WalkRules {
     double energy_bound = 0.25;
 };
 
-// \param random the batch's own. Returns the number of rays.
+// One batch. \param random the batch's own. Returns the number of rays.
 std::uint64_t walk(const FilamentScene &scene, const std::vector<RoughSurface> &surfaces,
-                   const LightViews &light, const WalkRules &rules, std::uint64_t photons,
-                   Random random, Sums &sums);
+                   const LightViews &light, const WalkRules &rules, Random random, Sums &sums);
 
 } // namespace tsuya::lab
