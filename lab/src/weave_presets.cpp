@@ -50,8 +50,8 @@ Weave polyester_taffeta() {
 /// Twill lining of viscose: 84 dtex / 24 filaments both ways, black.
 Weave twill_lining() {
     Yarn warp{.per_cm = 50,
-              .width = 0.190e-3,
-              .flattening = 0.28,
+              .width = 0.170e-3,
+              .flattening = 0.325,
               .filaments = 24,
               .material = FiberMaterial::cellulose};
     Yarn weft = warp;
@@ -64,8 +64,8 @@ Weave twill_lining() {
 /// Silk taffeta, red warp and green weft; dyes chosen by us.
 Weave shot_silk() {
     Yarn warp{.per_cm = 56,
-              .width = 0.150e-3,
-              .flattening = 0.31,
+              .width = 0.140e-3,
+              .flattening = 0.33,
               .filaments = 40,
               .section = FilamentSection::triangular,
               .corner_rounding = 0.4,
@@ -73,8 +73,8 @@ Weave shot_silk() {
               .transmission = {0.65, 0.08, 0.10}};
     Yarn weft = warp;
     weft.per_cm = 40;
-    weft.width = 0.190e-3;
-    weft.flattening = 0.185;
+    weft.width = 0.180e-3;
+    weft.flattening = 0.205;
     weft.transmission = {0.08, 0.45, 0.15};
     return {"shot silk", parse_draft("plain"), warp, weft};
 }

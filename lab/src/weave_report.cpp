@@ -63,18 +63,19 @@ double gap_at(const WeaveLayout &layout, int end, int pick) {
 
 /// Looks down on the repeat at a grid of places.
 void look_from_above(const WeaveLayout &layout, WeaveReport &report) {
-    const int nx = layout.paths.weft_points, ny = layout.paths.warp_points, points = layout.points;
+    constexpr int kFiner = 4; // places looked at for each of a path, along and across
+    const int points = layout.points * kFiner;
+    const int nx = layout.paths.weft_points * kFiner, ny = layout.paths.warp_points * kFiner;
     double warp_seen = 0, weft_seen = 0;
     for (int k = 0; k < ny; ++k)
         for (int l = 0; l < nx; ++l) {
-            const int end = l / points, pick = k / points;
             const auto across = [&](int place, double spacing) {
                 return (((place % points) + 0.5) / points - 0.5) * spacing;
             };
             const double warp = half_thickness(layout.warp, across(l, layout.warp_spacing));
             const double weft = half_thickness(layout.weft, across(k, layout.weft_spacing));
-            const double warp_top = layout.paths.warp_height(end, k) + warp;
-            const double weft_top = layout.paths.weft_height(pick, l) + weft;
+            const double warp_top = layout.paths.warp_height(l / points, k / kFiner) + warp;
+            const double weft_top = layout.paths.weft_height(k / points, l / kFiner) + weft;
             if (warp >= 0 && (weft < 0 || warp_top > weft_top))
                 warp_seen += 1;
             else if (weft >= 0)

@@ -29,8 +29,9 @@ struct GeometryOptions {
     double wavelength_nm = 589; ///< of the optics; see refractive_index()
     std::uint64_t seed = 1;     ///< of the places of filaments in their yarns
     /// Length over which a yarn resists bending against its tension, as a share of the spacing of
-    /// the yarns it crosses; 0 (a thread) to 1.
-    double stiffness_length = 0.35;
+    /// the yarns it crosses; 0 (a thread) to 1. Yarns of fine filaments bend easily; a stiff yarn
+    /// bows up over a wide flat one and touches it at its edges only.
+    double stiffness_length = 0.05;
     /// Repeats of the draft in the rectangle along x and y, 1 to 16; 0: as many as bring the twist,
     /// which must be a whole number of turns, within 10 % of what was asked (at most 4).
     int tiles_x = 0, tiles_y = 0;
