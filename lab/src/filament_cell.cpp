@@ -11,7 +11,7 @@ using std::numbers::pi;
 
 constexpr double kLongest = 16;    // cone, in its radii: long ones make loose bounding boxes
 constexpr int kMostParts = 256;    // of one segment of a path
-constexpr double kFlatness = 6;    // least width of the cell in thicknesses of the cloth
+constexpr double kFlatness = 2;    // least width of the cell in thicknesses of the cloth
 constexpr double kSharpest = 0.02; // corner, in radii of the section
 
 // One period of a filament, divided finely.

@@ -7,7 +7,9 @@
 namespace tsuya::lab {
 namespace {
 
-constexpr float kOffset = 2e-3f;      // of a ray from the surface that it leaves, radii
+constexpr float kOffset = 2e-3f; // of a ray from the surface that it leaves, radii
+// Of the energy per solid angle, times the views: what makes a view dim
+constexpr double kDim = 0.001;
 constexpr float kLeastCosine = 1e-5f; // of a photon with the surface
 
 // A batch has one photon in each of 128 x 64 parts of the cell, in an order in which neighbours
@@ -106,8 +108,15 @@ void Walker::connect(const Meeting &m, const Basis &basis, const glm::vec3 &from
               : light_.by_mirror[m.system].sample(basis.to_world({-from.x, -from.y, from.z}),
                                                   random_);
     const glm::vec3 to = basis.to_local(light_.to_viewer[choice.index]);
-    see(m, choice.index,
-        energy * surface.single_per_sr(from, to) / (choice.chance * (1 - multiple)));
+    double value = surface.single_per_sr(from, to) / (choice.chance * (1 - multiple));
+    // Of views that see next to nothing, only some are worth a ray
+    const double dim = kDim * views;
+    if (value < dim) {
+        if (random_.unit() * dim >= value)
+            return;
+        value = dim;
+    }
+    see(m, choice.index, energy * value);
 }
 
 void Walker::connect_exit(const Meeting &m, double energy) {

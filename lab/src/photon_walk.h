@@ -37,7 +37,7 @@ struct Sums {
 
 struct WalkRules {
     int max_bounces = 0; // 0: all
-    double energy_bound = 0.25;
+    double energy_bound = 0.5;
 };
 
 // One batch. \param random the batch's own. Returns the number of rays.
