@@ -53,6 +53,14 @@ void check_size(const Weave &weave, const WeaveLayout &layout) {
                      "expected at most 20 million: fewer filaments, tiles or points per crossing"});
 }
 
+/// A filament of a twisted yarn needs points enough for its helix.
+void check_twist(const std::string &where, double turns, double points) {
+    constexpr double kMostTurn = 0.1;
+    if (std::abs(turns) > kMostTurn * points)
+        throw Error({"twist_per_m leaves less than 10 points for each turn", where,
+                     "expected fewer turns or more points_per_crossing"});
+}
+
 } // namespace
 
 WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
@@ -73,6 +81,11 @@ WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
         options.tiles_y > 0 ? options.tiles_y : tiles_for(weave.warp.twist_per_m, size_y);
     layout.warp_turns = std::round(weave.warp.twist_per_m * size_y * layout.tiles_y);
     layout.weft_turns = std::round(weave.weft.twist_per_m * size_x * layout.tiles_x);
+    const std::string name = weave.name.empty() ? "weave" : weave.name;
+    check_twist(name + ".warp", layout.warp_turns,
+                static_cast<double>(layout.draft.picks) * layout.tiles_y * layout.points);
+    check_twist(name + ".weft", layout.weft_turns,
+                static_cast<double>(layout.draft.ends) * layout.tiles_x * layout.points);
     check_size(weave, layout);
     layout.warp_packing = pack_filaments(layout.warp, weave.warp.filaments);
     layout.weft_packing = pack_filaments(layout.weft, weave.weft.filaments);

@@ -57,11 +57,9 @@ glm::dvec2 ring_place(const RaceTrack &section, const FilamentRing &ring, double
                       double phase) {
     phase -= std::floor(phase);
     const double flat = 2 * section.half_flat;
-    if (ring.radius == 0) {
-        // Evenly over the segment, first and last as far from its ends as half a step.
-        return {(phase - 0.5) * flat * (ring.count > 1 ? ring.count / (ring.count - 1.0) : 0), 0};
-    }
     const double r = filament_radius / kLoose;
+    if (ring.radius == 0) // in the middles of equal parts of the segment, if these are long enough
+        return {(phase - 0.5) * std::max(flat, 2 * r * ring.count), 0};
     const double cap = half_circle(ring.radius, r);
     double s = phase * 2 * (flat + cap);
     const double side = s < flat + cap ? 1 : -1; // the lower half is the upper one turned by pi

@@ -303,6 +303,11 @@ TEST(WeaveGeometry, OptionsAndSizesOutOfRangeAreRefused) {
           GeometryOptions{.stiffness_length = -1}, GeometryOptions{.tiles_x = 17},
           GeometryOptions{.tiles_y = -1}})
         EXPECT_THROW(build_filaments(cloth, options), Error);
+    Weave hard = cloth;
+    hard.weft.per_cm = 5;
+    hard.warp.twist_per_m = 3000;
+    EXPECT_THROW(build_filaments(hard), Error);
+    EXPECT_NO_THROW(build_filaments(hard, {.points_per_crossing = 64}));
     Weave large = cloth;
     large.draft = twill(200, 200);
     EXPECT_THROW(build_filaments(large), Error);
