@@ -1,5 +1,7 @@
 // tsuya fabric simulate: the virtual goniometer.
 
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -20,6 +22,11 @@ namespace fs = std::filesystem;
 constexpr double kNormalStep = 5;
 constexpr double kPhiPerTheta = 5.0 / 3.0; // of the steps of [Takeda]: 3 and 5 degrees
 
+// About that, and a whole part of 45 degrees, so that views lie in all three planes.
+double phi_step(double theta_step) {
+    return 45 / std::max(1.0, std::round(45 / (theta_step * kPhiPerTheta)));
+}
+
 class SimulateCommand final : public Command {
   public:
     explicit SimulateCommand(CLI::App &fabric)
@@ -34,9 +41,10 @@ class SimulateCommand final : public Command {
                         "normal: light from straight above; paper: the set of Takeda et al.; or a "
                         "table, whose directions are taken")
             ->capture_default_str();
-        app_.add_option("--step", step_deg_,
-                        "Degrees between views: 5 for normal, 3 (theta, with 5/3 of it in phi) "
-                        "for paper")
+        app_.add_option(
+                "--step", step_deg_,
+                "Degrees between views: 5 for normal, 3 (theta, with about 5/3 of it in phi) "
+                "for paper")
             ->check(CLI::Range(0.5, 45.0));
         app_.add_option("--photons", settings_.photons, "A direction of light, at most")
             ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
@@ -94,7 +102,7 @@ class SimulateCommand final : public Command {
                              "expected --directions normal or paper"});
             return lab::directions_of(read_reflectance_table(directions_));
         }
-        return step_deg_ ? lab::paper_directions(*step_deg_, *step_deg_ * kPhiPerTheta)
+        return step_deg_ ? lab::paper_directions(*step_deg_, phi_step(*step_deg_))
                          : lab::paper_directions();
     }
 

@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
 constexpr int kWidth = 1200, kHeight = 1000;
 constexpr double kDecades = 3.5;    // below the largest value
-constexpr double kCurveStep = 0.5;  // degrees
+constexpr double kCurveStep = 1.0;  // degrees
 constexpr double kMapStep = 1.0;    // degrees
 constexpr double kSameAngle = 1e-3; // radians
 constexpr std::array<int, 6> kThetas = {0, 15, 30, 45, 60, 75};
@@ -120,19 +120,23 @@ std::string panel_of(const Plane &plane, const PlaneData &data, double most) {
 std::string map_of(const Bard &bard) {
     std::ostringstream out;
     out.imbue(std::locale::classic());
+    double most = 0;
     out << "$map << END\n";
     for (double y = -90; y <= 90; y += kMapStep) {
         for (double x = -90; x <= 90; x += kMapStep) {
             const double theta = std::hypot(x, y);
             out << x << " " << y << " ";
-            if (theta <= 90)
-                out << bard.at(direction(theta * kDegree, std::atan2(y, x))) << "\n";
-            else
+            if (theta <= 90) {
+                const double value = bard.at(direction(theta * kDegree, std::atan2(y, x)));
+                most = std::max(most, value);
+                out << value << "\n";
+            } else {
                 out << "NaN\n";
+            }
         }
         out << "\n";
     }
-    out << "END\n";
+    out << "END\nset cbrange [" << most * std::pow(10, -kDecades) << ":" << most << "]\n";
     return out.str();
 }
 
