@@ -60,9 +60,11 @@ std::vector<std::string> weave_names();
 /// A preset. Throws Error naming `where` with the names that would be accepted.
 Weave weave(std::string_view name, const std::string &where = "weave");
 
-/// Reads a weave: `.wif` a draft with the yarns of `weave("polyester taffeta")` where the file does
-/// not tell (spacing and colours it can), anything else TOML as above. Throws Error with
-/// file:line:column.
+/// Reads a weave. TOML is as above; what it leaves out comes from its preset, else from
+/// `polyester taffeta`. A `.wif` file gives the draft, on the yarns of `polyester taffeta`: a
+/// spacing in the file scales them, and colours become the transmission of their system, the mean
+/// of the decoded sRGB of its threads (a filament as bright as the colour; there is one dye a
+/// system). Throws Error with file:line:column; problems of a draft as a whole name the file.
 Weave read_weave(const std::filesystem::path &file);
 
 /// Throws Error naming `where` and the member: a number out of its range, yarns wider than their
