@@ -38,4 +38,10 @@ std::unique_ptr<Command> make_garment(CLI::App &program);
 std::unique_ptr<Command> make_lab(CLI::App &program);
 std::unique_ptr<Command> make_list(CLI::App &program);
 
+/// The commands of `tsuya fabric`.
+std::unique_ptr<Command> make_fabric_fit(CLI::App &fabric);
+std::unique_ptr<Command> make_fabric_evaluate(CLI::App &fabric);
+std::unique_ptr<Command> make_fabric_show(CLI::App &fabric);
+std::unique_ptr<Command> make_fabric_simulate(CLI::App &fabric);
+
 } // namespace tsuya::program

@@ -1,5 +1,8 @@
 #include "json_file.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "tsuya/sdk/file.h"
 
 namespace tsuya::program {
@@ -87,6 +90,20 @@ Json json_of(const garment::Report &r) {
             {"upper", json_of(r.upper)},
             {"area", r.area},
             {"findings", json_of(r.findings)}};
+}
+
+Json json_of(const ErrorMeasures &error) {
+    Json json = Json::object();
+    for (const NamedMeasure &measure : error_measures()) {
+        const std::optional<double> &value = error.*measure.value;
+        json[std::string(measure.name)] = value && std::isfinite(*value) ? Json(*value) : Json();
+    }
+    return json;
+}
+
+double degrees_of(double angle) {
+    constexpr double kSteps = 1e6;
+    return std::round(angle * 180 / std::numbers::pi * kSteps) / kSteps;
 }
 
 void write_json(const std::filesystem::path &file, const Json &json) {

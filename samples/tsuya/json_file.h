@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tsuya/garment/report.h"
+#include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya::program {
@@ -16,6 +17,12 @@ using Json = nlohmann::ordered_json;
 Json json_of(const RenderStats &stats);
 /// `tsuya-garment-check 1`
 Json json_of(const garment::Report &report);
+
+/// The error measures by name; null where empty or not finite
+Json json_of(const ErrorMeasures &error);
+
+/// Degrees of an angle in radians, rounded to a millionth: what a file said is said again
+double degrees_of(double angle);
 
 /// Throws Error if the file cannot be written.
 void write_json(const std::filesystem::path &file, const Json &json);

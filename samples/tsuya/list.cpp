@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 
 #include "command.h"
 #include "json_file.h"
 #include "tsuya/color/config.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
+#include "tsuya/lab/weave.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/sdk/fabric.h"
+#include "tsuya/sdk/model.h"
 
 namespace tsuya::program {
 namespace {
@@ -24,9 +27,9 @@ class ListCommand final : public Command {
     explicit ListCommand(CLI::App &program)
         : app_(*program.add_subcommand("list", "What can be named")) {
         app_.footer("Example:\n  tsuya list lamps");
-        app_.add_option("kind", kind_, "lamps, fabrics, dyes, models or views")
+        app_.add_option("kind", kind_, "lamps, fabrics, weaves, dyes, models or views")
             ->required()
-            ->check(CLI::IsMember({"lamps", "fabrics", "dyes", "models", "views"}));
+            ->check(CLI::IsMember({"lamps", "fabrics", "weaves", "dyes", "models", "views"}));
         app_.add_flag("--json", json_, "As JSON");
         app_.add_option("--data", data_, "Folder of the sample data");
     }
@@ -61,6 +64,15 @@ class ListCommand final : public Command {
         return list;
     }
 
+    static std::string weave_description(const std::string &name) {
+        const lab::Weave weave = lab::weave(name);
+        std::ostringstream text;
+        text << "repeat of " << weave.draft.ends << " ends and " << weave.draft.picks << " picks, "
+             << weave.warp.per_cm << " ends/cm and " << weave.weft.per_cm << " picks/cm, "
+             << lab::name_of(weave.warp.material);
+        return text.str();
+    }
+
     std::vector<Entry> entries() const {
         if (kind_ == "lamps")
             return described(lamp_names(), lamp_description);
@@ -68,6 +80,8 @@ class ListCommand final : public Command {
             return described(dye_names(), dye_description);
         if (kind_ == "views")
             return described(view_names(), view_description);
+        if (kind_ == "weaves")
+            return described(lab::weave_names(), weave_description);
         if (kind_ == "fabrics") {
             const std::filesystem::path data = scene::data_folder(data_);
             return described(scene::sample_fabrics(data), [&](const std::string &name) {
@@ -76,8 +90,10 @@ class ListCommand final : public Command {
                 return material == fabric.keys.end() ? fabric.name : material->second;
             });
         }
-        return {{"takeda", "great-circle model through a few measured views"},
-                {"lambert", "ideal diffuser"}};
+        std::vector<Entry> models;
+        for (const ModelName &model : model_names())
+            models.push_back({std::string(model.name), std::string(model.description)});
+        return models;
     }
 
     CLI::App &app_;

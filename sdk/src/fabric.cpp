@@ -108,17 +108,22 @@ bool Material::has_specular() const {
                                    [](double v) { return v > 0; });
 }
 
+double f0_of(const Fabric &fabric, const std::string &where) {
+    const double basic = fabric.bard ? fabric.bard->at({0, 0, 1}) : 0.0;
+    const double f0 = fabric.f0.value_or(std::min(1.0, basic));
+    if (!(f0 > 0 && f0 <= 1))
+        throw Error({"f0 is " + std::to_string(f0), where + ".f0",
+                     "expected a reflectance above 0 and not above 1"});
+    return f0;
+}
+
 Material resolve(const Fabric &fabric, const std::string &where) {
     check_spectrum(fabric.dye, 0, 1, where + ".dye");
     check_spectrum(fabric.specular_tint, 0, 1, where + ".specular_tint");
     Material material{.specular_tint = fabric.specular_tint, .dye = fabric.dye};
     if (!fabric.bard || fabric.bard->peak() == 0)
         return material;
-    const double f0 = fabric.f0.value_or(std::min(1.0, fabric.bard->at({0, 0, 1})));
-    if (!(f0 > 0 && f0 <= 1))
-        throw Error({"f0 is " + std::to_string(f0), where + ".f0",
-                     "expected a reflectance above 0 and not above 1"});
-    material.specular = TakedaBrdf(*fabric.bard, f0);
+    material.specular = TakedaBrdf(*fabric.bard, f0_of(fabric, where));
     return material;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "disk.h"
+#include "facets.h"
 
 namespace tsuya {
 namespace {
@@ -17,32 +18,9 @@ constexpr int kDensityCells = 96;
 constexpr int kAlbedoSamples = 1024;
 constexpr float kSmallest = 1e-20f;
 
-// [Takeda] Eq. 5
-float fresnel(float f0, float cosine) {
-    const float m = 1 - cosine, m2 = m * m;
-    return f0 + (1 - f0) * m2 * m2 * m;
-}
-
-// Points of the R2 sequence [Roberts] and a third coordinate by the golden ratio of it.
-glm::vec3 quadrature_point(int i) {
-    const double n = i + 0.5;
-    const auto fraction = [](double x) { return static_cast<float>(x - std::floor(x)); };
-    return {fraction(n * 0.8191725133961645), fraction(n * 0.6710436067037893),
-            fraction(n * 0.5497004779019703)};
-}
-
 } // namespace
 
-// What evaluation shares: rho cos_i cos_r = scaled * F(L.H) * min(1, k cos_i, k cos_r)
-struct TakedaBrdf::Terms {
-    float value; // scaled * F * limit
-    float k;
-
-    // rho times the first cosine
-    float cos(float first, float second) const {
-        return value * std::min({1 / second, k, k * first / second});
-    }
-};
+struct TakedaBrdf::Terms : FacetTerms {};
 
 TakedaBrdf::TakedaBrdf(const Bard &bard, double f0)
     : f0_(static_cast<float>(f0)), half_turn_(bard.symmetry() != Symmetry::none) {
@@ -98,16 +76,15 @@ TakedaBrdf::Terms TakedaBrdf::terms(const glm::vec3 &to_light, const glm::vec3 &
                                     const glm::vec3 &basic) const {
     const float sum = std::max(1 + glm::dot(to_light, to_viewer), kSmallest);
     const float light_half = std::sqrt(std::min(0.5f * sum, 1.0f)); // L.H
-    return {scaled_.at(basic) * fresnel(f0_, light_half) * limit(to_light),
-            2 * (to_light.z + to_viewer.z) / sum};
+    return {{scaled_.at(basic) * fresnel(f0_, light_half) * limit(to_light),
+             2 * (to_light.z + to_viewer.z) / sum}};
 }
 
 float TakedaBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const float ci = to_light.z, cr = to_viewer.z;
     if (!(ci > 0 && cr > 0))
         return 0;
-    const Terms t = terms(to_light, to_viewer, to_basic(to_light, to_viewer).basic);
-    return t.value * std::min({1 / (ci * cr), t.k / cr, t.k / ci});
+    return terms(to_light, to_viewer, to_basic(to_light, to_viewer).basic).per_sr(ci, cr);
 }
 
 float TakedaBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {

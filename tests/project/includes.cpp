@@ -30,22 +30,31 @@ struct Owned {
 
 /// Headers of other projects. What `tests/x` tests, it may also use as a second opinion.
 const std::vector<Owned> kOwners{
-    {"embree3/", {"sdk", "lab"}}, {"embree4/", {"sdk", "lab"}},
-    {"tbb/", {"sdk", "garment"}}, {"oneapi/", {"sdk", "garment"}},
-    {"Eigen/", {"sdk"}},          {"toml++/", {"sdk", "lab", "samples"}},
-    {"OpenColorIO/", {"color"}},  {"OpenImageIO/", {"color"}},
-    {"OpenMesh/", {"garment"}},   {"opensubdiv/", {"garment"}},
-    {"tiny_gltf.h", {"garment"}}, {"gpiod.hpp", {"lab"}},
-    {"gpiod.h", {"lab"}},         {"nlohmann/", {"lab", "samples"}},
-    {"CLI/", {"samples"}},        {"gtest/", {"tests"}},
-    {"gmock/", {"tests"}},        {"benchmark/", {"tests"}},
+    {"embree3/", {"sdk", "lab"}},
+    {"embree4/", {"sdk", "lab"}},
+    {"tbb/", {"sdk", "garment", "lab"}},
+    {"oneapi/", {"sdk", "garment", "lab"}},
+    {"Eigen/", {"sdk"}},
+    {"toml++/", {"sdk", "lab", "samples"}},
+    {"OpenColorIO/", {"color"}},
+    {"OpenImageIO/", {"color"}},
+    {"OpenMesh/", {"garment"}},
+    {"opensubdiv/", {"garment"}},
+    {"tiny_gltf.h", {"garment"}},
+    {"gpiod.hpp", {"lab"}},
+    {"gpiod.h", {"lab"}},
+    {"nlohmann/", {"lab", "samples"}},
+    {"CLI/", {"samples"}},
+    {"gtest/", {"tests"}},
+    {"gmock/", {"tests"}},
+    {"benchmark/", {"tests"}},
 };
 
-const Folders kSystem{"unistd.h",   "fcntl.h",        "time.h",      "signal.h",    "pthread.h",
-                      "sched.h",    "immintrin.h",    "xmmintrin.h", "pmmintrin.h", "dlfcn.h",
-                      "stdlib.h",   "glob.h",         "sys/stat.h",  "sys/mman.h",  "sys/types.h",
-                      "sys/wait.h", "sys/resource.h", "sys/time.h",  "sys/ioctl.h", "sys/utsname.h",
-                      "sys/file.h"};
+const Folders kSystem{"spawn.h",       "unistd.h",   "fcntl.h",        "time.h",      "signal.h",
+                      "pthread.h",     "sched.h",    "immintrin.h",    "xmmintrin.h", "pmmintrin.h",
+                      "dlfcn.h",       "stdlib.h",   "glob.h",         "sys/stat.h",  "sys/mman.h",
+                      "sys/types.h",   "sys/wait.h", "sys/resource.h", "sys/time.h",  "sys/ioctl.h",
+                      "sys/utsname.h", "sys/file.h"};
 
 std::string first_part(const std::string &path) { return path.substr(0, path.find('/')); }
 

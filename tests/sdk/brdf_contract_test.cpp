@@ -31,6 +31,10 @@ Instance takeda(const char *name, Cloth (*cloth)(), double f0, double light_tole
     return {name, [=] { return Brdf(TakedaBrdf(bard_of(cloth()), f0)); }, light_tolerance};
 }
 
+Instance half_vector(const char *name, Cloth (*cloth)(), double f0) {
+    return {name, [=] { return Brdf(HalfVectorBrdf(bard_of(cloth()), f0)); }};
+}
+
 std::vector<Instance> instances() {
     return {{"Lambert", [] { return Brdf(LambertBrdf()); }, 1e-3, 1e-3},
             takeda("TakedaSatin", satin_cloth, 0.05),
@@ -38,7 +42,11 @@ std::vector<Instance> instances() {
             takeda("TakedaNarrow", narrow_cloth, 0.9),
             takeda("TakedaTwisted", twisted_cloth, 0.05),
             // Without the half turn the weights of grazing lights vary, and the tables with them
-            takeda("TakedaLeaning", leaning_cloth, 0.05, 0.05)};
+            takeda("TakedaLeaning", leaning_cloth, 0.05, 0.05),
+            half_vector("HalfVectorSatin", satin_cloth, 0.05),
+            half_vector("HalfVectorNarrow", narrow_cloth, 0.9),
+            half_vector("HalfVectorTwisted", twisted_cloth, 0.05),
+            half_vector("HalfVectorLeaning", leaning_cloth, 0.05)};
 }
 
 class BrdfContract : public testing::TestWithParam<Instance> {

@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/half_vector.h"
 #include "tsuya/sdk/lambert.h"
 #include "tsuya/sdk/sampled_direction.h"
 #include "tsuya/sdk/takeda.h"
@@ -45,9 +46,10 @@ concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer
 };
 // clang-format on
 
-using Brdf = std::variant<LambertBrdf, TakedaBrdf>;
+using Brdf = std::variant<LambertBrdf, TakedaBrdf, HalfVectorBrdf>;
 
 static_assert(BrdfModel<LambertBrdf>);
 static_assert(BrdfModel<TakedaBrdf>);
+static_assert(BrdfModel<HalfVectorBrdf>);
 
 } // namespace tsuya

@@ -34,6 +34,10 @@ struct Material {
     bool has_specular() const;
 };
 
+/// The fabric's f0, or what [Takeda] takes where it has none. Throws Error naming `where` if it is
+/// not in (0, 1].
+double f0_of(const Fabric &fabric, const std::string &where);
+
 /// Throws Error naming `where`: a spectrum outside 0..1, f0 outside (0, 1].
 Material resolve(const Fabric &fabric, const std::string &where);
 

@@ -1,0 +1,100 @@
+#pragma once
+/// \file
+/// The virtual goniometer: the reflectance of a weave that exists only as filaments, found by
+/// tracing photons.
+///
+/// A photon starts above a uniformly random point of one repeat and meets filaments. At the surface
+/// of a filament it is reflected by facets whose slopes are Gaussian (Beckmann's distribution with
+/// Smith's shadowing [Walter]) with the exact Fresnel term of unpolarised light. What single
+/// reflections lose in the roughness comes back as a broad lobe [KullaConty], so that the surface
+/// alone neither makes nor loses light. What enters leaves again with the filament's
+/// `transmission`, or is lost: the light that leaves has forgotten where it came from, comes out
+/// evenly around the section at the same place along the axis, and as much per direction as could
+/// enter from there. All of this is reciprocal.
+///
+/// At every meeting one of the asked views is chosen, in proportion to what it would see, and
+/// connected by a ray: values are of the exact direction, without a solid angle about it.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tsuya/lab/filaments.h"
+#include "tsuya/sdk/progress.h"
+#include "tsuya/sdk/reflectance_table.h"
+
+namespace tsuya::lab {
+
+/// A light and a view, radians. theta in [0, pi/2) from the cloth's normal, phi from the weft.
+struct DirectionPair {
+    double theta_i = 0, phi_i = 0;
+    double theta_r = 0, phi_r = 0;
+};
+
+/// What is measured, in any order. Pairs of the same light share its photons.
+struct Directions {
+    std::vector<DirectionPair> pairs{};
+    Symmetry symmetry = Symmetry::none; ///< written into the table
+};
+
+/// Light from straight above and one quadrant of views, both angles every `step_deg` below (theta)
+/// and up to (phi) 90 degrees; straight up once. Throws Error unless step_deg is in (0, 90].
+Directions normal_incidence_quadrant(double step_deg);
+
+/// The set of [Takeda]: theta_i every 15 degrees below 90 on the planes phi_i = 0, 45, 90; theta_r
+/// every 3 and phi_r every 5 degrees. What differs by nothing is there once (straight down and
+/// straight up at every phi), which leaves 33,424 of 38,880. Coarser views by the steps in degrees.
+Directions paper_directions(double theta_step_deg = 3, double phi_step_deg = 5);
+
+/// The directions of a table.
+Directions directions_of(const ReflectanceTable &table);
+
+struct GoniometerSettings {
+    /// Per direction of light, > 0; rounded up to whole batches of kPhotonsPerBatch.
+    std::uint64_t photons = 1u << 20;
+    /// A light is done when the sum of the standard errors of its views is this share of the sum of
+    /// their values; 0: at `photons` only.
+    double error = 0;
+    double seconds = 0;     ///< stop after about this long; 0: never. The one stop that varies
+    std::uint32_t seed = 1; ///< other seeds give independent results
+    int threads = 0;        ///< 0: all. The result does not depend on it
+    int max_bounces = 0;    ///< reflections after the first that are followed; 0: all
+    /// Photons with less energy than this, of 1 at the start, go on by chance with this energy:
+    /// nothing is lost on average. In (0, 1].
+    double energy_bound = 0.5;
+    double turn_per_segment = 0.02; ///< of a filament's axis, radians: how finely it is divided
+    int section_points = 32;        ///< of a section that is not round, 12 to 256
+    /// Where the sums are kept every 30 seconds and at a stop; empty: nowhere. Removed when done.
+    std::filesystem::path checkpoint{};
+    bool resume = false; ///< go on from `checkpoint` if it is there
+};
+
+/// Photons of one batch: the grain of determinism, of stopping and of the checkpoint.
+inline constexpr std::uint64_t kPhotonsPerBatch = 8192;
+
+/// The energy of one direction of light, shares of what arrived, with their standard errors.
+struct LightReport {
+    double theta_i = 0, phi_i = 0; ///< radians
+    std::uint64_t photons = 0;
+    double reflected = 0, reflected_sigma = 0;
+    double transmitted = 0, transmitted_sigma = 0;
+    double relative_error = 0; ///< as of GoniometerSettings::error
+};
+
+struct Measurement {
+    ReflectanceTable table{}; ///< rows in the order of the pairs, with sigma_per_sr
+    std::vector<LightReport> lights{};
+    std::uint64_t photons = 0, rays = 0; ///< of this run, without what was resumed
+    double seconds = 0;                  ///< of this run
+    bool interrupted = false;            ///< by progress.stop; what there is, is given
+};
+
+/// Measures. On one build the result is bit-identical for any number of threads and after stop and
+/// resume (stops by time excepted). Throws Error: no directions, angles out of range, settings out
+/// of range, a repeat that breaks its rules, a slope deviation outside [0.005, 0.5], a checkpoint
+/// of another measurement.
+Measurement measure(const FilamentRepeat &repeat, const Directions &directions,
+                    const GoniometerSettings &settings, const Progress &progress = {});
+
+} // namespace tsuya::lab

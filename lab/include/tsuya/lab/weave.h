@@ -1,0 +1,79 @@
+#pragma once
+/// \file
+/// A weave and its yarns, as authored: by name, from a TOML file or from a WIF draft.
+///
+///     [weave]
+///     draft = "satin 5"          # or plan = ["X.", ".X"]: a row a pick, the last pick first
+///     preset = "silk charmeuse"  # where all that is not said here comes from
+///     name = "my satin"
+///     [warp]                     # [weft] alike
+///     per_cm = 76                # ends or picks per centimetre
+///     width_mm = 0.125           # of a yarn, in the plane of the cloth
+///     flattening = 0.4           # thickness / width
+///     filaments = 24
+///     section = "round"          # triangular, trilobal
+///     material = "polyester"     # silk, cellulose; or refractive_index = 1.6
+///     transmission = [0, 0, 0]   # of the dyed filament in red, green and blue
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tsuya/lab/draft.h"
+#include "tsuya/lab/filaments.h"
+#include "tsuya/lab/refractive_index.h"
+
+namespace tsuya::lab {
+
+/// One yarn system, warp or weft. The section of the yarn is a race-track: a rectangle between two
+/// half circles, `width` across and `width * flattening` thick.
+struct Yarn {
+    double per_cm = 40;                               ///< ends or picks, 1 to 500
+    double width = 0.2e-3;                            ///< metres, at most the spacing
+    double flattening = 0.3;                          ///< thickness / width, 0.02 to 1
+    int filaments = 36;                               ///< 1 to 500
+    FilamentSection section = FilamentSection::round; ///< of a filament
+    double corner_rounding = 0.3;                     ///< 0 sharp to 1 round; not of a round one
+    double twist_per_m = 0;                           ///< turns; > 0 is Z, < 0 is S; up to 4000
+    FiberMaterial material = FiberMaterial::polyester;
+    std::optional<double> refractive_index{}; ///< instead of the material's; 1 to 3
+    double surface_roughness = 0.08; ///< standard deviation of a filament's slope, radians, 0 to 1
+    /// Share of the light that enters a filament and comes out again, in red (610 nm), green
+    /// (550 nm) and blue (465 nm), each 0 to 1: the dye. 0 is black.
+    std::array<double, 3> transmission{0, 0, 0};
+
+    double spacing() const { return 0.01 / per_cm; } ///< metres between the axes
+    double thickness() const { return width * flattening; }
+};
+
+struct Weave {
+    std::string name{};
+    Draft draft = plain_weave();
+    Yarn warp{}, weft{};
+};
+
+/// `black polyester satin`, `silk charmeuse`, `polyester taffeta`, `twill lining`, `shot silk`.
+std::vector<std::string> weave_names();
+/// A preset. Throws Error naming `where` with the names that would be accepted.
+Weave weave(std::string_view name, const std::string &where = "weave");
+
+/// Reads a weave. TOML is as above; what it leaves out comes from its preset, else from
+/// `polyester taffeta`. A `.wif` file gives the draft, on the yarns of `polyester taffeta`: a
+/// spacing in the file scales them, and colours become the transmission of their system, the mean
+/// of the decoded sRGB of its threads (a filament as bright as the colour; there is one dye a
+/// system). Throws Error with file:line:column; problems of a draft as a whole name the file.
+Weave read_weave(const std::filesystem::path &file);
+
+/// Throws Error naming `where` and the member: a number out of its range, yarns wider than their
+/// spacing, or a draft that does not hold (check_draft).
+void check_weave(const Weave &weave, const std::string &where);
+
+/// Transmission of the dye at a wavelength, linear between the three bands and constant beyond.
+double transmission(const Yarn &yarn, double wavelength_nm);
+/// Optics of the filaments of a yarn at a wavelength.
+FilamentOptics optics(const Yarn &yarn, double wavelength_nm);
+
+} // namespace tsuya::lab

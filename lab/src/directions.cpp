@@ -1,0 +1,54 @@
+#include <cmath>
+#include <numbers>
+
+#include "tsuya/lab/goniometer.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kSlack = 1e-9; // of angles in degrees that are sums of steps
+
+void check_step(double step_deg, const char *where) {
+    if (!(step_deg > 0 && step_deg <= 90))
+        throw Error({"the step of the directions is " + std::to_string(step_deg) + " degrees",
+                     where, "expected a step above 0 and up to 90"});
+}
+
+// Adds views every step: theta below 90, phi from 0 to phi_end; straight up once.
+void add_views(Directions &directions, double theta_i_deg, double phi_i_deg, double theta_step_deg,
+               double phi_step_deg, double phi_end_deg) {
+    for (int i = 0; i * theta_step_deg < 90 - kSlack; ++i)
+        for (int j = 0; j * phi_step_deg < phi_end_deg && (i > 0 || j == 0); ++j)
+            directions.pairs.push_back({theta_i_deg * kDegree, phi_i_deg * kDegree,
+                                        i * theta_step_deg * kDegree, j * phi_step_deg * kDegree});
+}
+
+} // namespace
+
+Directions normal_incidence_quadrant(double step_deg) {
+    check_step(step_deg, "step_deg");
+    Directions directions{.pairs = {}, .symmetry = Symmetry::orthotropic};
+    add_views(directions, 0, 0, step_deg, step_deg, 90 + kSlack);
+    return directions;
+}
+
+Directions paper_directions(double theta_step_deg, double phi_step_deg) {
+    check_step(theta_step_deg, "theta_step_deg");
+    check_step(phi_step_deg, "phi_step_deg");
+    Directions directions;
+    for (int theta_deg = 0; theta_deg < 90; theta_deg += 15)
+        for (int phi_deg = 0; phi_deg <= (theta_deg > 0 ? 90 : 0); phi_deg += 45)
+            add_views(directions, theta_deg, phi_deg, theta_step_deg, phi_step_deg, 360 - kSlack);
+    return directions;
+}
+
+Directions directions_of(const ReflectanceTable &table) {
+    Directions directions{.pairs = {}, .symmetry = table.symmetry};
+    for (const ReflectanceRow &row : table.rows)
+        directions.pairs.push_back({row.theta_i, row.phi_i, row.theta_r, row.phi_r});
+    return directions;
+}
+
+} // namespace tsuya::lab

@@ -1,0 +1,249 @@
+#include "filament_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <embree3/rtcore.h>
+
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab {
+namespace {
+
+constexpr unsigned kCones = 0, kTubes = 1;
+constexpr int kMostSteps = 20000;  // cells and inner walls that one ray passes
+constexpr float kPastWall = 1e-3f; // radii: how far beyond an inner wall a ray goes on
+
+// A vertex buffer in place, with the spare bytes that Embree reads behind its end.
+template <class T>
+void share(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::vector<T> &items) {
+    const std::size_t count = items.size();
+    items.reserve(count + 16 / sizeof(T) + 1);
+    rtcSetSharedGeometryBuffer(geometry, type, 0, format, items.data(), 0, sizeof(T), count);
+}
+
+// Distance along one axis to the side of the cell.
+float to_side(float position, float direction, float size) {
+    if (direction == 0)
+        return std::numeric_limits<float>::infinity();
+    return std::max(0.0f, ((direction > 0 ? size : 0) - position) / direction);
+}
+
+} // namespace
+
+struct FilamentScene::State {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    ~State() {
+        if (scene)
+            rtcReleaseScene(scene);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+    void attach(RTCGeometry geometry, unsigned id) const {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, id);
+        rtcReleaseGeometry(geometry);
+    }
+};
+
+FilamentScene::FilamentScene(FilamentCell cell)
+    : cell_(std::move(cell)), state_(std::make_unique<State>()) {
+    state_->device = rtcNewDevice(nullptr);
+    if (!state_->device)
+        throw Error({"Embree cannot be started on this machine", "", ""});
+    state_->scene = rtcNewScene(state_->device);
+    rtcSetSceneBuildQuality(state_->scene, RTC_BUILD_QUALITY_HIGH);
+    if (Cones &c = cell_.cones; !c.first.empty()) {
+        const RTCGeometry geometry =
+            rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+        share(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, c.vertex);
+        share(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, c.first);
+        state_->attach(geometry, kCones);
+    }
+    if (Tubes &t = cell_.tubes; !t.triangle.empty()) {
+        const RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        share(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, t.position);
+        share(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, t.triangle);
+        state_->attach(geometry, kTubes);
+    }
+    rtcCommitScene(state_->scene);
+    if (const RTCError error = rtcGetDeviceError(state_->device); error != RTC_ERROR_NONE)
+        throw Error({"Embree cannot build the acceleration structure (error " +
+                         std::to_string(static_cast<int>(error)) + ")",
+                     "", "expected enough memory for the filaments"});
+}
+
+FilamentScene::~FilamentScene() = default;
+
+namespace {
+
+// The normal of the tube about the smooth axis, not of the cone: it does not jump at the joints.
+Meeting on_cone(const Cones &cones, std::uint32_t segment, const glm::vec3 &point) {
+    const std::uint32_t first = cones.first[segment];
+    const glm::vec3 a(cones.vertex[first]), axis = glm::vec3(cones.vertex[first + 1]) - a;
+    const float along = std::clamp(glm::dot(point - a, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
+    const glm::vec3 tangent =
+        glm::normalize(glm::mix(cones.tangent[first], cones.tangent[first + 1], along));
+    const glm::vec3 radial = point - a - along * axis;
+    return {point,
+            glm::normalize(radial - tangent * glm::dot(radial, tangent)),
+            cones.system[segment],
+            true,
+            segment,
+            along};
+}
+
+Meeting on_tube(const Tubes &tubes, std::uint32_t triangle, float u, float v,
+                const glm::vec3 &point) {
+    const glm::uvec3 &t = tubes.triangle[triangle];
+    const float w = 1 - u - v;
+    const std::uint32_t segment = triangle / (2 * tubes.ring_size);
+    // Of the two triangles of a quad, one has two points on the first ring, the other one
+    const float along = triangle % 2 == 0 ? v : u + w;
+    const glm::vec3 normal =
+        glm::normalize(w * tubes.normal[t.x] + u * tubes.normal[t.y] + v * tubes.normal[t.z]);
+    return {point, normal, tubes.system[segment], false, segment, along};
+}
+
+} // namespace
+
+// The part of a ray within the cell.
+struct FilamentScene::Leg {
+    float side;  // distance to the nearer side
+    float end;   // distance to the top or bottom
+    int crossed; // axis of that side
+
+    float length() const { return std::min(side, end) * 1.0001f; }
+    bool leaves() const { return end <= side; }
+    // To where the ray comes in again
+    void wrap(glm::vec3 &origin, const glm::vec3 &direction, const glm::vec2 &size) const {
+        origin += side * direction;
+        origin[crossed] = direction[crossed] > 0 ? 0 : size[crossed];
+    }
+};
+
+FilamentScene::Leg FilamentScene::leg(glm::vec3 &origin, const glm::vec3 &direction) const {
+    // A point outside of the cell is the same as one inside
+    for (int c = 0; c < 2; ++c)
+        if (origin[c] < 0 || origin[c] > cell_.size[c])
+            origin[c] -= cell_.size[c] * std::floor(origin[c] / cell_.size[c]);
+    const float x = to_side(origin.x, direction.x, cell_.size.x);
+    const float y = to_side(origin.y, direction.y, cell_.size.y);
+    const float height = (direction.z > 0 ? cell_.top : cell_.bottom) - origin.z;
+    const float end = direction.z == 0 ? std::numeric_limits<float>::infinity()
+                                       : std::max(0.0f, height / direction.z);
+    return {std::min(x, y), end, x <= y ? 0 : 1};
+}
+
+namespace {
+
+RTCRay make_ray(const glm::vec3 &origin, const glm::vec3 &direction, float length) {
+    return {.org_x = origin.x,
+            .org_y = origin.y,
+            .org_z = origin.z,
+            .tnear = 0,
+            .dir_x = direction.x,
+            .dir_y = direction.y,
+            .dir_z = direction.z,
+            .time = 0,
+            .tfar = length,
+            .mask = ~0u,
+            .id = 0,
+            .flags = 0};
+}
+
+} // namespace
+
+Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Meeting &meeting) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Leg part = leg(origin, direction);
+        RTCRayHit query;
+        query.ray = make_ray(origin, direction, part.length());
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(state_->scene, &context, &query);
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            if (part.leaves())
+                return direction.z > 0 ? Fate::above : Fate::below;
+            part.wrap(origin, direction, cell_.size);
+            continue;
+        }
+        const glm::vec3 point = origin + query.ray.tfar * direction;
+        meeting = query.hit.geomID == kCones
+                      ? on_cone(cell_.cones, query.hit.primID, point)
+                      : on_tube(cell_.tubes, query.hit.primID, query.hit.u, query.hit.v, point);
+        if (glm::dot(meeting.normal, direction) < 0)
+            return Fate::met;
+        const glm::vec3 face{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+        if (glm::dot(face, direction) < 0) { // smooth normals turn away at the silhouette
+            meeting.normal = glm::normalize(face);
+            return Fate::met;
+        }
+        // From inside: filaments in contact may share a little space
+        origin = point + kPastWall * direction;
+    }
+    return Fate::lost;
+}
+
+bool FilamentScene::escapes(glm::vec3 origin, const glm::vec3 &direction) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Leg part = leg(origin, direction);
+        RTCRay ray = make_ray(origin, direction, part.length());
+        rtcOccluded1(state_->scene, &context, &ray);
+        if (ray.tfar < 0)
+            return false;
+        if (part.leaves())
+            return direction.z > 0;
+        part.wrap(origin, direction, cell_.size);
+    }
+    return false;
+}
+
+Meeting FilamentScene::around(const Meeting &meeting, float u) const {
+    Meeting result = meeting;
+    if (meeting.on_cone) {
+        const std::uint32_t first = cell_.cones.first[meeting.segment];
+        const glm::vec4 centre =
+            glm::mix(cell_.cones.vertex[first], cell_.cones.vertex[first + 1], meeting.along);
+        const glm::vec3 tangent = glm::normalize(
+            glm::mix(cell_.cones.tangent[first], cell_.cones.tangent[first + 1], meeting.along));
+        const glm::vec3 side = glm::cross(meeting.normal, tangent);
+        const float angle = 2 * std::numbers::pi_v<float> * u;
+        result.normal = meeting.normal * std::cos(angle) + side * std::sin(angle);
+        result.point = glm::vec3(centre) + centre.w * result.normal;
+        return result;
+    }
+    const Tubes &tubes = cell_.tubes;
+    const std::uint32_t ring = tubes.ring[meeting.segment], m = tubes.ring_size;
+    const auto edge = [&](std::uint32_t k) {
+        return glm::distance(tubes.position[ring + k], tubes.position[ring + (k + 1) % m]);
+    };
+    float length = 0;
+    for (std::uint32_t k = 0; k < m; ++k)
+        length += edge(k);
+    float rest = u * length;
+    std::uint32_t k = 0;
+    for (; k + 1 < m && rest >= edge(k); ++k)
+        rest -= edge(k);
+    const float share = edge(k) > 0 ? std::min(rest / edge(k), 1.0f) : 0;
+    const std::uint32_t p = ring + k, q = ring + (k + 1) % m;
+    const auto interpolate = [&](const std::vector<glm::vec3> &v) {
+        return glm::mix(glm::mix(v[p], v[q], share), glm::mix(v[p + m], v[q + m], share),
+                        meeting.along);
+    };
+    result.point = interpolate(tubes.position);
+    result.normal = glm::normalize(interpolate(tubes.normal));
+    return result;
+}
+
+} // namespace tsuya::lab

@@ -1,0 +1,69 @@
+#include "tsuya/lab/weave.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab {
+namespace {
+
+struct Range {
+    const char *name;
+    double value, low, high;
+};
+
+void check_yarn(const Yarn &yarn, const std::string &where) {
+    const Range ranges[] = {
+        {"per_cm", yarn.per_cm, 1, 500},
+        {"width_mm", yarn.width * 1e3, 0.001, 10},
+        {"flattening", yarn.flattening, 0.02, 1},
+        {"filaments", static_cast<double>(yarn.filaments), 1, 500},
+        {"corner_rounding", yarn.corner_rounding, 0, 1},
+        {"twist_per_m", yarn.twist_per_m, -4000, 4000},
+        {"refractive_index", yarn.refractive_index.value_or(1.5), 1, 3},
+        {"surface_roughness", yarn.surface_roughness, 0, 1},
+        {"transmission (red)", yarn.transmission[0], 0, 1},
+        {"transmission (green)", yarn.transmission[1], 0, 1},
+        {"transmission (blue)", yarn.transmission[2], 0, 1},
+    };
+    for (const Range &range : ranges)
+        if (!(range.value >= range.low && range.value <= range.high))
+            throw Error(
+                {std::string(range.name) + " is " + std::to_string(range.value), where,
+                 "expected " + std::to_string(range.low) + " to " + std::to_string(range.high)});
+    if (yarn.width > yarn.spacing())
+        throw Error({"yarns " + std::to_string(yarn.width * 1e3) + " mm wide lie " +
+                         std::to_string(yarn.spacing() * 1e3) + " mm apart",
+                     where, "expected a width_mm of at most 10 / per_cm"});
+}
+
+} // namespace
+
+void check_weave(const Weave &weave, const std::string &where) {
+    check_draft(weave.draft, where + ".draft");
+    check_yarn(weave.warp, where + ".warp");
+    check_yarn(weave.weft, where + ".weft");
+}
+
+double transmission(const Yarn &yarn, double wavelength_nm) {
+    constexpr double kRed_nm = 610, kGreen_nm = 550, kBlue_nm = 465;
+    const auto [red, green, blue] = yarn.transmission;
+    if (wavelength_nm >= kGreen_nm)
+        return std::lerp(green, red,
+                         std::min((wavelength_nm - kGreen_nm) / (kRed_nm - kGreen_nm), 1.0));
+    return std::lerp(green, blue,
+                     std::min((kGreen_nm - wavelength_nm) / (kGreen_nm - kBlue_nm), 1.0));
+}
+
+FilamentOptics optics(const Yarn &yarn, double wavelength_nm) {
+    return {.section = yarn.section,
+            .corner_rounding = yarn.corner_rounding,
+            .refractive_index = yarn.refractive_index
+                                    ? *yarn.refractive_index
+                                    : refractive_index(yarn.material, wavelength_nm),
+            .surface_roughness = yarn.surface_roughness,
+            .transmission = transmission(yarn, wavelength_nm)};
+}
+
+} // namespace tsuya::lab

@@ -1,0 +1,102 @@
+#include "weave_layout.h"
+
+#include <cmath>
+
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab::detail {
+namespace {
+
+void check_options(const GeometryOptions &options) {
+    const auto fail = [](const char *name, std::string accepted) {
+        throw Error({std::string(name) + " is out of range", std::string("geometry.") + name,
+                     "expected " + std::move(accepted)});
+    };
+    if (options.points_per_crossing < 4 || options.points_per_crossing > 64 ||
+        options.points_per_crossing % 2 != 0)
+        fail("points_per_crossing", "an even number from 4 to 64");
+    if (!(options.stiffness_length >= 0 && options.stiffness_length <= 1))
+        fail("stiffness_length", "0 to 1");
+    if (options.tiles_x < 0 || options.tiles_x > 16)
+        fail("tiles_x", "0 to 16");
+    if (options.tiles_y < 0 || options.tiles_y > 16)
+        fail("tiles_y", "0 to 16");
+}
+
+/// Repeats of the draft along a yarn that let `twist_per_m` be a whole number of turns.
+int tiles_for(double twist_per_m, double length) {
+    constexpr int kMost = 4;
+    constexpr double kEnough = 0.1;
+    int best = 1;
+    double least = 1e300;
+    for (int tiles = 1; tiles <= kMost; ++tiles) {
+        const double turns = twist_per_m * length * tiles;
+        const double error = std::abs(std::round(turns) - turns) / tiles;
+        if (std::round(turns) != 0 && error < least) {
+            least = error;
+            best = tiles;
+            if (error <= kEnough * std::abs(twist_per_m) * length)
+                break;
+        }
+    }
+    return best;
+}
+
+void check_size(const Weave &weave, const WeaveLayout &layout) {
+    constexpr double kMostPoints = 20e6;
+    const double crossings = static_cast<double>(layout.draft.ends) * layout.draft.picks *
+                             layout.tiles_x * layout.tiles_y;
+    const double points = crossings * layout.points * (weave.warp.filaments + weave.weft.filaments);
+    if (points > kMostPoints)
+        throw Error({"the repeat needs " + std::to_string(points * 1e-6) + " million points",
+                     weave.name.empty() ? "weave" : weave.name,
+                     "expected at most 20 million: fewer filaments, tiles or points per crossing"});
+}
+
+/// A filament of a twisted yarn needs points enough for its helix.
+void check_twist(const std::string &where, double turns, double points) {
+    constexpr double kMostTurn = 0.1;
+    if (std::abs(turns) > kMostTurn * points)
+        throw Error({"twist_per_m leaves less than 10 points for each turn", where,
+                     "expected fewer turns or more points_per_crossing"});
+}
+
+} // namespace
+
+WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
+    check_options(options);
+    check_weave(weave, weave.name.empty() ? "weave" : weave.name);
+    WeaveLayout layout{.draft = weave.draft,
+                       .warp_spacing = weave.warp.spacing(),
+                       .weft_spacing = weave.weft.spacing(),
+                       .warp = RaceTrack(weave.warp.width, weave.warp.thickness()),
+                       .weft = RaceTrack(weave.weft.width, weave.weft.thickness())};
+    layout.section = {weave.warp.section, weave.weft.section};
+    layout.points = options.points_per_crossing;
+    const double size_x = layout.draft.ends * layout.warp_spacing;
+    const double size_y = layout.draft.picks * layout.weft_spacing;
+    layout.tiles_x =
+        options.tiles_x > 0 ? options.tiles_x : tiles_for(weave.weft.twist_per_m, size_x);
+    layout.tiles_y =
+        options.tiles_y > 0 ? options.tiles_y : tiles_for(weave.warp.twist_per_m, size_y);
+    layout.warp_turns = std::round(weave.warp.twist_per_m * size_y * layout.tiles_y);
+    layout.weft_turns = std::round(weave.weft.twist_per_m * size_x * layout.tiles_x);
+    const std::string name = weave.name.empty() ? "weave" : weave.name;
+    check_twist(name + ".warp", layout.warp_turns,
+                static_cast<double>(layout.draft.picks) * layout.tiles_y * layout.points);
+    check_twist(name + ".weft", layout.weft_turns,
+                static_cast<double>(layout.draft.ends) * layout.tiles_x * layout.points);
+    check_size(weave, layout);
+    layout.warp_packing = pack_filaments(layout.warp, weave.warp.filaments);
+    layout.weft_packing = pack_filaments(layout.weft, weave.weft.filaments);
+    layout.paths = solve_paths({.draft = layout.draft,
+                                .warp_spacing = layout.warp_spacing,
+                                .weft_spacing = layout.weft_spacing,
+                                .warp = layout.warp,
+                                .weft = layout.weft,
+                                .points = layout.points,
+                                .stiffness_length = options.stiffness_length});
+    return layout;
+}
+
+} // namespace tsuya::lab::detail

@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// A weave in metres, with the paths of its yarns: what filaments and report are both made from.
+
+#include <array>
+
+#include "tsuya/lab/weave_geometry.h"
+#include "yarn_paths.h"
+#include "yarn_section.h"
+
+namespace tsuya::lab::detail {
+
+struct WeaveLayout {
+    Draft draft{};
+    double warp_spacing = 0, weft_spacing = 0; ///< of ends along x, of picks along y, metres
+    RaceTrack warp, weft;
+    FilamentPacking warp_packing{}, weft_packing{};
+    std::array<FilamentSection, 2> section{};
+    int points = 12; ///< of a path per crossing
+    int tiles_x = 1, tiles_y = 1;
+    double warp_turns = 0, weft_turns = 0; ///< whole, over all tiles
+    YarnPaths paths{};
+};
+
+/// Throws Error like build_filaments.
+WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options);
+
+} // namespace tsuya::lab::detail

@@ -1,0 +1,123 @@
+// tsuya fabric evaluate: how far the models of a fabric lie from a table.
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+#include "command.h"
+#include "json_file.h"
+#include "tsuya/sdk/model.h"
+
+namespace tsuya::program {
+namespace {
+
+constexpr int kWidth = 16;
+
+struct Result {
+    std::string model;
+    Accuracy accuracy;
+};
+
+class EvaluateCommand final : public Command {
+  public:
+    explicit EvaluateCommand(CLI::App &fabric)
+        : app_(*fabric.add_subcommand("evaluate", "How far a fabric lies from a table")) {
+        app_.footer("Example:\n"
+                    "  tsuya fabric evaluate black_satin.fabric.toml --against black_satin.csv "
+                    "--model all\n"
+                    "`tsuya list models` names the models. The dye has no part: only the specular "
+                    "reflectance is compared.");
+        app_.add_option("fabric", fabric_, "F.fabric.toml")->required();
+        app_.add_option("--against", table_, "TABLE.csv of reflectance")->required();
+        app_.add_option("--model", model_, "A model, or all")->capture_default_str();
+        app_.add_flag("--json", json_, "As JSON");
+    }
+
+    bool called() const override { return app_.parsed(); }
+
+    Status run(Console &console) override {
+        const Fabric fabric = read_fabric(fabric_);
+        const ReflectanceTable table = read_reflectance_table(table_);
+        if (std::any_of(fabric.dye.value.begin(), fabric.dye.value.end(),
+                        [](double v) { return v > 0; }))
+            console.warning(fabric_.string() + ": the fabric has a dye, which is not compared");
+        std::vector<std::string> models{model_};
+        if (model_ == "all") {
+            models.clear();
+            for (const ModelName &model : model_names())
+                models.emplace_back(model.name);
+        }
+        std::vector<Result> results;
+        for (const std::string &model : models)
+            results.push_back(
+                {model, measure_accuracy(table, make_model(model, fabric, fabric_.string()))});
+        json_ ? print_json(results) : print_text(results);
+        return kDone;
+    }
+
+  private:
+    void print_json(const std::vector<Result> &results) const {
+        Json json{{"schema", "tsuya-fabric-evaluate 1"},
+                  {"fabric", fabric_.string()},
+                  {"table", table_.string()},
+                  {"results", Json::array()}};
+        for (const Result &result : results) {
+            Json directions = Json::array();
+            for (const LightAccuracy &light : result.accuracy.directions) {
+                Json direction{{"theta_i_deg", degrees_of(light.theta_i)},
+                               {"phi_i_deg", degrees_of(light.phi_i)},
+                               {"views", light.views}};
+                direction.update(json_of(light.error));
+                directions.push_back(std::move(direction));
+            }
+            json["results"].push_back({{"model", result.model},
+                                       {"mean", json_of(result.accuracy.mean)},
+                                       {"directions", std::move(directions)}});
+        }
+        std::cout << json.dump(2) << "\n";
+    }
+
+    static void print_text(const std::vector<Result> &results) {
+        for (const Result &result : results) {
+            std::cout << result.model << "\n"
+                      << "theta_i_deg  phi_i_deg  views";
+            for (const NamedMeasure &measure : error_measures())
+                std::cout << std::setw(kWidth) << measure.name;
+            std::cout << "\n" << std::fixed;
+            for (const LightAccuracy &light : result.accuracy.directions) {
+                std::cout << std::setprecision(1) << std::setw(11) << degrees_of(light.theta_i)
+                          << std::setw(11) << degrees_of(light.phi_i) << std::setw(7)
+                          << light.views;
+                print_measures(light.error);
+            }
+            std::cout << std::setw(29) << std::left << "mean" << std::right;
+            print_measures(result.accuracy.mean);
+        }
+    }
+
+    static void print_measures(const ErrorMeasures &error) {
+        for (const NamedMeasure &measure : error_measures()) {
+            std::ostringstream text;
+            if (const auto &value = error.*measure.value)
+                text << std::fixed << std::setprecision(4) << *value;
+            else
+                text << "-";
+            std::cout << std::setw(kWidth) << text.str();
+        }
+        std::cout << "\n";
+    }
+
+    CLI::App &app_;
+    std::filesystem::path fabric_{}, table_{};
+    std::string model_ = "takeda";
+    bool json_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<Command> make_fabric_evaluate(CLI::App &fabric) {
+    return std::make_unique<EvaluateCommand>(fabric);
+}
+
+} // namespace tsuya::program
