@@ -8,6 +8,24 @@
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
+namespace {
+
+RTCRay make_ray(const glm::vec3 &origin, const glm::vec3 &direction, float farthest) {
+    return {.org_x = origin.x,
+            .org_y = origin.y,
+            .org_z = origin.z,
+            .tnear = 0,
+            .dir_x = direction.x,
+            .dir_y = direction.y,
+            .dir_z = direction.z,
+            .time = 0,
+            .tfar = farthest,
+            .mask = ~0u,
+            .id = 0,
+            .flags = 0};
+}
+
+} // namespace
 
 struct Accelerator::State {
     RTCDevice device = nullptr;
@@ -67,19 +85,7 @@ bool Accelerator::intersect(const glm::vec3 &origin, const glm::vec3 &direction,
                             Hit &hit) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query{};
-    query.ray = {.org_x = origin.x,
-                 .org_y = origin.y,
-                 .org_z = origin.z,
-                 .tnear = 0,
-                 .dir_x = direction.x,
-                 .dir_y = direction.y,
-                 .dir_z = direction.z,
-                 .time = 0,
-                 .tfar = farthest,
-                 .mask = ~0u,
-                 .id = 0,
-                 .flags = 0};
+    RTCRayHit query{.ray = make_ray(origin, direction, farthest), .hit = {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -96,18 +102,7 @@ bool Accelerator::occluded(const glm::vec3 &origin, const glm::vec3 &direction,
                            float farthest) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay ray{.org_x = origin.x,
-               .org_y = origin.y,
-               .org_z = origin.z,
-               .tnear = 0,
-               .dir_x = direction.x,
-               .dir_y = direction.y,
-               .dir_z = direction.z,
-               .time = 0,
-               .tfar = farthest,
-               .mask = ~0u,
-               .id = 0,
-               .flags = 0};
+    RTCRay ray = make_ray(origin, direction, farthest);
     rtcOccluded1(state_->scene, &context, &ray);
     return ray.tfar < 0;
 }
