@@ -11,6 +11,8 @@ using std::numbers::pi;
 
 constexpr double kLongest = 16;    // cone, in its radii: long ones make loose bounding boxes
 constexpr int kMostParts = 256;    // of one segment of a path
+constexpr double kTubeTurn = 5;    // times that of cones: normals are interpolated between rings
+constexpr double kMostTwist = 0.3; // of a section between rings, radians
 constexpr double kFlatness = 2;    // least width of the cell in thicknesses of the cloth
 constexpr double kSharpest = 0.02; // corner, in radii of the section
 
@@ -79,6 +81,21 @@ Path divide(const Filament &filament, const glm::dvec3 &step, double scale, doub
         }
     }
     return path;
+}
+
+// Drops stations that a tube does without: one ring costs as much as dozens of cones.
+void thin(Path &path, double most_turn) {
+    std::vector<Path::Station> kept{path.station[0]};
+    for (std::size_t i = 1; i < path.station.size(); ++i) {
+        const Path::Station &last = kept.back(), &s = path.station[i];
+        const Path::Station &next = path.station[(i + 1) % path.station.size()];
+        const double twist = std::abs(std::remainder(next.turn - last.turn, 2 * pi));
+        const double length = glm::distance(s.position, last.position);
+        if (angle_between(last.tangent, next.tangent) > most_turn || twist > kMostTwist ||
+            length > 0.5 * kLongest * path.radius)
+            kept.push_back(s);
+    }
+    path.station = std::move(kept);
 }
 
 // The stations of all segments that reach into low to high along `axis`, with a shift across.
@@ -199,6 +216,8 @@ FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment
         const glm::dvec3 step =
             f.system == 0 ? glm::dvec3(0, period.y, 0) : glm::dvec3(period.x, 0, 0);
         paths.push_back(divide(f, step, scale, turn_per_segment));
+        if (repeat.optics[f.system].section != FilamentSection::round)
+            thin(paths.back(), kTubeTurn * turn_per_segment);
         for (const Path::Station &s : paths.back().station) {
             bottom = std::min(bottom, static_cast<float>(s.position.z - paths.back().radius));
             top = std::max(top, static_cast<float>(s.position.z + paths.back().radius));

@@ -63,8 +63,8 @@ struct GoniometerSettings {
     /// Photons with less energy than this, of 1 at the start, go on by chance with this energy:
     /// nothing is lost on average. In (0, 1].
     double energy_bound = 0.5;
-    double turn_per_segment = 0.02; ///< of a filament's axis, radians: how finely it is divided
-    int section_points = 32;        ///< of a section that is not round, 12 to 256
+    double turn_per_segment = 0.02; ///< of a round filament's axis, radians; of others 5 times it
+    int section_points = 24;        ///< of a section that is not round, 12 to 256
     /// Where the sums are kept every 30 seconds and at a stop; empty: nowhere. Removed when done.
     std::filesystem::path checkpoint{};
     bool resume = false; ///< go on from `checkpoint` if it is there
