@@ -43,6 +43,4 @@ float DiskTable::at(const glm::vec3 &direction) const {
     return (1 - t) * ((1 - s) * row[0] + s * row[1]) + t * ((1 - s) * next[0] + s * next[1]);
 }
 
-float DiskTable::maximum() const { return *std::max_element(value_.begin(), value_.end()); }
-
 } // namespace tsuya

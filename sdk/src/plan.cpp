@@ -57,7 +57,7 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
 
 std::string explain(const Plan &p) {
     std::string text = "bounces: up to " + std::to_string(p.max_bounces) + "\n";
-    text += "lights sampled: " + std::to_string(p.lights.size()) + " rectangles" +
+    text += "lights: " + std::to_string(p.lights.size()) + " rectangles" +
             (p.environment ? ", environment" : "") + "\n";
     text += std::string("parts: ") + (p.any_diffuse ? "diffuse " : "") +
             (p.any_specular ? "specular" : "") + "\n";

@@ -194,8 +194,7 @@ template <int K> class Job {
         for (const Channels<K> &c : radiance)
             for (std::size_t k = 0; k < K; ++k)
                 *to++ += c.v[k];
-        film_.sum_of_squares[static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width) +
-                             static_cast<std::size_t>(x)] += mean * mean;
+        film_.sum_of_squares[film_.at(x, y)] += mean * mean;
         return true;
     }
 

@@ -2,7 +2,6 @@
 /// \file
 /// A function of direction as a table on the equal-area disk of the hemisphere.
 
-#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -18,8 +17,6 @@ class DiskTable {
     DiskTable(int nodes, bool orthotropic, const std::function<float(const glm::vec3 &)> &function);
     /// \param direction unit, z >= 0
     float at(const glm::vec3 &direction) const;
-    float maximum() const;
-    std::size_t bytes() const { return value_.size() * sizeof(float); }
 
   private:
     int nodes_ = 0;

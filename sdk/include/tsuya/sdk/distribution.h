@@ -24,8 +24,6 @@ class Distribution2D {
     Sample sample(glm::vec2 u) const;
     /// Density at a point of the unit square.
     float density(glm::vec2 point) const;
-    int rows() const { return rows_; }
-    int columns() const { return columns_; }
 
   private:
     int rows_ = 0, columns_ = 0;
