@@ -1,41 +1,95 @@
-// tsuya fabric show: pictures of what a fabric reflects.
+// tsuya fabric show: pictures of what a fabric reflects, and of what it is woven from.
 
+#include <cmath>
 #include <iostream>
+#include <numbers>
+#include <sstream>
 
 #include "command.h"
+#include "tsuya/color/srgb.h"
+#include "tsuya/lab/weave_picture.h"
 #include "tsuya/scene/lobe_plot.h"
+#include "tsuya/scene/output_file.h"
+#include "tsuya/scene/picture_row.h"
+#include "weave_name.h"
 
 namespace tsuya::program {
 namespace {
 
+Image encoded(Image linear) {
+    for (float &value : linear.data)
+        value = static_cast<float>(srgb_encode(value));
+    return linear;
+}
+
 class ShowCommand final : public Command {
   public:
     explicit ShowCommand(CLI::App &fabric)
-        : app_(*fabric.add_subcommand("show", "Draw what a fabric reflects")) {
-        app_.footer("Example:\n  tsuya fabric show black_satin.fabric.toml -o lobes.svg\n"
-                    "Draws the lobes in the warp, bias and weft planes, and the map of the "
-                    "measured views. Needs gnuplot.");
-        app_.add_option("fabric", fabric_, "F.fabric.toml")->required();
-        app_.add_option("-o,--output", output_, "PLOT.svg or .png")->required();
-        app_.add_option("--model", model_, "Of the curves")->capture_default_str();
-        app_.add_option("--against", table_, "TABLE.csv, drawn as points");
+        : app_(*fabric.add_subcommand("show", "Draw what a fabric reflects, or its weave")) {
+        app_.footer(
+            "Examples:\n  tsuya fabric show black_satin.fabric.toml -o lobes.svg\n"
+            "  tsuya fabric show --weave \"silk charmeuse\" -o charmeuse.png\n"
+            "The first draws the lobes in the warp, bias and weft planes, and the map of the "
+            "measured views; it needs gnuplot.\nThe second draws the filaments close up, beside "
+            "the draft of the same part of the cloth.");
+        CLI::Option_group &what = *app_.add_option_group("What");
+        CLI::Option *const lobes = what.add_option("fabric", fabric_, "F.fabric.toml");
+        CLI::Option *const weave =
+            what.add_option("--weave", weave_, "WEAVE.toml, DRAFT.wif or a preset, in its place");
+        what.require_option(1);
+        app_.add_option("-o,--output", output_, "PICTURE.svg or .png")->required();
+        app_.add_option("--model", model_, "Of the curves")->capture_default_str()->needs(lobes);
+        app_.add_option("--against", table_, "TABLE.csv, drawn as points")->needs(lobes);
+        app_.add_option("--tilt", tilt_deg_, "Degrees that the weave is seen from the side")
+            ->check(CLI::Range(0.0, 70.0))
+            ->capture_default_str()
+            ->needs(weave);
+        app_.add_option("--across", across_mm_, "Millimetres of cloth in the picture; 0: a repeat")
+            ->check(CLI::Range(0.0, 1000.0))
+            ->capture_default_str()
+            ->needs(weave);
+        app_.add_option("--size", settings_.width, "Pixels of a side of the weave's picture")
+            ->check(CLI::Range(64, 4096))
+            ->capture_default_str()
+            ->needs(weave);
     }
 
     bool called() const override { return app_.parsed(); }
 
-    Status run(Console &) override {
-        scene::LobePlot plot{.fabric = read_fabric(fabric_), .model = model_};
-        if (!table_.empty())
-            plot.against = read_reflectance_table(table_);
-        scene::plot_lobes(plot, output_);
+    Status run(Console &console) override {
+        weave_.empty() ? show_lobes() : show_weave(console);
         std::cout << output_.string() << "\n";
         return kDone;
     }
 
   private:
+    void show_lobes() const {
+        scene::LobePlot plot{.fabric = read_fabric(fabric_), .model = model_};
+        if (!table_.empty())
+            plot.against = read_reflectance_table(table_);
+        scene::plot_lobes(plot, output_);
+    }
+
+    void show_weave(Console &console) {
+        const lab::Weave weave = weave_named(weave_);
+        scene::prepare_output_file(output_, {".png", ".svg"});
+        settings_.height = settings_.width;
+        settings_.across = across_mm_ * 1e-3;
+        settings_.tilt = tilt_deg_ * std::numbers::pi / 180;
+        std::ostringstream bar;
+        bar << "the bar is " << std::round(lab::scale_bar(weave, settings_) * 1e9) * 1e-6 << " mm";
+        scene::write_picture_row(
+            weave.name,
+            {{encoded(lab::weave_picture(weave, settings_, console.progress())), bar.str()},
+             {encoded(lab::draft_picture(weave, settings_)), "dark: warp on the face"}},
+            output_);
+    }
+
     CLI::App &app_;
     std::filesystem::path fabric_{}, output_{}, table_{};
-    std::string model_ = "takeda";
+    std::string model_ = "takeda", weave_{};
+    double tilt_deg_ = 0, across_mm_ = 0;
+    lab::WeavePictureSettings settings_{};
 };
 
 } // namespace

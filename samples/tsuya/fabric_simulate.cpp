@@ -13,6 +13,7 @@
 #include "tsuya/lab/goniometer.h"
 #include "tsuya/lab/weave_geometry.h"
 #include "tsuya/scene/output_file.h"
+#include "weave_name.h"
 
 namespace tsuya::program {
 namespace {
@@ -64,7 +65,7 @@ class SimulateCommand final : public Command {
     bool called() const override { return app_.parsed(); }
 
     Status run(Console &console) override {
-        const lab::Weave weave = read_weave();
+        const lab::Weave weave = weave_named(weave_);
         const lab::Directions directions = read_directions();
         if (directions.symmetry == Symmetry::orthotropic &&
             (weave.warp.twist_per_m != 0 || weave.weft.twist_per_m != 0))
@@ -87,12 +88,6 @@ class SimulateCommand final : public Command {
     }
 
   private:
-    lab::Weave read_weave() const {
-        const std::string extension = fs::path(weave_).extension().string();
-        const bool is_file = extension == ".toml" || extension == ".wif" || fs::exists(weave_);
-        return is_file ? lab::read_weave(weave_) : lab::weave(weave_);
-    }
-
     lab::Directions read_directions() const {
         if (directions_ == "normal")
             return lab::normal_incidence_quadrant(step_deg_.value_or(kNormalStep));

@@ -228,6 +228,52 @@ TEST(FabricShow, RefusesWrongInput) {
     EXPECT_FALSE(fs::exists(scratch / "a.svg"));
 }
 
+TEST(FabricShow, DrawsAWeaveBesideItsDraft) {
+    const Scratch scratch;
+    const fs::path png = scratch / "n/weave.png", svg = scratch / "weave.svg";
+    const Outcome drawn = run(scratch, {"show", "--weave", "shot silk", "-o", png.string(),
+                                        "--size", "64", "--tilt", "30"});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(drawn.out, png.string() + "\n");
+    EXPECT_GT(read_image(png).width, 2 * 64);
+    const std::string toml =
+        scratch.write("a & b.toml", "[weave]\ndraft = \"satin 5\"\nname = \"a & b\"\n").string();
+    const Outcome vector = run(
+        scratch, {"show", "--weave", toml, "-o", svg.string(), "--size", "64", "--across", "1"});
+    ASSERT_EQ(vector.status, 0) << vector.err;
+    const std::string text = read_file(svg);
+    for (const char *part : {">a &amp; b<", "the bar is 0.2 mm", "warp on the face",
+                             "data:image/png;base64,iVBORw0KGgo"})
+        EXPECT_NE(text.find(part), std::string::npos) << part;
+    std::size_t files = 0; // nothing temporary is left: folder n, two files
+    for ([[maybe_unused]] const auto &entry : fs::directory_iterator(scratch.folder()))
+        ++files;
+    EXPECT_EQ(files, 3u);
+}
+
+TEST(FabricShow, RefusesAWeaveThatItCannotDraw) {
+    const Scratch scratch;
+    const std::string out = (scratch / "a.png").string();
+    const auto expect = [&](std::vector<std::string> arguments, int status, const char *says) {
+        arguments.insert(arguments.begin(), "show");
+        const Outcome refused = run(scratch, arguments);
+        EXPECT_EQ(refused.status, status) << refused.err;
+        EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
+        EXPECT_FALSE(fs::exists(out));
+    };
+    expect({"--weave", "silk charmeus", "-o", out}, 1, "did you mean silk charmeuse");
+    expect({"--weave", "none.wif", "-o", out}, 1, "none.wif");
+    const std::string bad = scratch.write("bad.toml", "[weave]\ndraft = \"satan 5\"\n").string();
+    expect({"--weave", bad, "-o", out}, 1, "bad.toml:2");
+    expect({"--weave", "shot silk", "-o", (scratch / "a.jpg").string()}, 1, ".png or .svg");
+    scratch.write("file", "");
+    expect({"--weave", "shot silk", "-o", (scratch / "file/a.png").string()}, 1, "file");
+    expect({"-o", out}, 2, "[fabric,--weave]");
+    expect({satin().string(), "--weave", "shot silk", "-o", out}, 2, "2 were given");
+    expect({satin().string(), "--tilt", "3", "-o", out}, 2, "--tilt requires --weave");
+    expect({"--weave", "shot silk", "--tilt", "90", "-o", out}, 2, "--tilt");
+}
+
 // A PATH with no program in it
 TEST(FabricShow, NamesThePackageOfGnuplot) {
     const Scratch scratch;
