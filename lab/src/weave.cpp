@@ -21,6 +21,7 @@ void check_yarn(const Yarn &yarn, const std::string &where) {
         {"filaments", static_cast<double>(yarn.filaments), 1, 500},
         {"corner_rounding", yarn.corner_rounding, 0, 1},
         {"twist_per_m", yarn.twist_per_m, -4000, 4000},
+        {"tension", yarn.tension, 0.01, 100},
         {"refractive_index", yarn.refractive_index.value_or(1.5), 1, 3},
         {"surface_roughness", yarn.surface_roughness, 0, 1},
         {"transmission (red)", yarn.transmission[0], 0, 1},

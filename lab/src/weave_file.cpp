@@ -50,6 +50,7 @@ void read_yarn(const Section &section, Yarn &yarn) {
         note(section, "section", [&] { yarn.section = parse_section(*name); });
     yarn.corner_rounding = section.number("corner_rounding", 0, 1).value_or(yarn.corner_rounding);
     yarn.twist_per_m = section.number("twist_per_m", -4000, 4000).value_or(yarn.twist_per_m);
+    yarn.tension = section.number("tension", 0.01, 100).value_or(yarn.tension);
     if (const auto name = section.text("material")) {
         yarn.refractive_index.reset();
         note(section, "material", [&] { yarn.material = parse_fiber_material(*name); });

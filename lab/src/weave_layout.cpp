@@ -61,6 +61,15 @@ void check_twist(const std::string &where, double turns, double points) {
                      "expected fewer turns or more points_per_crossing"});
 }
 
+/// Yarns that are pulled very differently may find no paths clear of each other.
+void check_room(const std::string &where, const WeaveLayout &layout) {
+    constexpr double kMostOverlap = 0.02; // of the distance of the axes
+    if (layout.paths.overlap > kMostOverlap * (layout.warp.radius + layout.weft.radius))
+        throw Error({"the yarns pass through each other by " +
+                         std::to_string(layout.paths.overlap * 1e6) + " micrometres",
+                     where, "expected thinner yarns, fewer of them, or tensions less apart"});
+}
+
 } // namespace
 
 WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
@@ -95,7 +104,10 @@ WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
                                 .warp = layout.warp,
                                 .weft = layout.weft,
                                 .points = layout.points,
-                                .stiffness_length = options.stiffness_length});
+                                .stiffness_length = options.stiffness_length,
+                                .warp_tension = weave.warp.tension,
+                                .weft_tension = weave.weft.tension});
+    check_room(name, layout);
     return layout;
 }
 

@@ -1,6 +1,7 @@
 #include "yarn_paths.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tsuya::lab::detail {
@@ -48,7 +49,8 @@ class Solver {
               window_of(problem.weft, problem.warp.radius, problem.weft_spacing / points_, ny_)),
           across_warp_(
               window_of(problem.warp, problem.weft.radius, problem.warp_spacing / points_, nx_)),
-          bending_(std::pow(problem.stiffness_length * points_, 2)) {}
+          bending_(std::pow(problem.stiffness_length * points_, 2)), pull_{problem.warp_tension,
+                                                                           problem.weft_tension} {}
 
     /// Warp yarns, then weft yarns.
     std::vector<double> solve() {
@@ -60,9 +62,10 @@ class Solver {
             next = ahead;
             descend(ahead, next);
             project(next);
+            const std::size_t first_weft = weft_at(0, 0);
             double uphill = 0, change = 0;
             for (std::size_t k = 0; k < now.size(); ++k) {
-                uphill += (ahead[k] - next[k]) * (next[k] - now[k]);
+                uphill += pull_[k < first_weft ? 0 : 1] * (ahead[k] - next[k]) * (next[k] - now[k]);
                 change = std::max(change, std::abs(next[k] - now[k]));
             }
             const double larger = (1 + std::sqrt(1 + 4 * momentum * momentum)) / 2;
@@ -74,10 +77,15 @@ class Solver {
             if (i > 10 && change < enough)
                 break;
         }
-        for (int i = 0; i < kPolish && project(now) > 1e-4 * radius_; ++i) {
+        for (int i = 0; i < kPolish; ++i) {
+            overlap_ = project(now);
+            if (overlap_ <= 1e-4 * radius_)
+                break;
         }
         return now;
     }
+    /// That was left by solve(), metres.
+    double overlap() const { return overlap_; }
 
   private:
     std::size_t warp_at(int end, int place) const {
@@ -103,7 +111,8 @@ class Solver {
         return z;
     }
 
-    /// One step down the gradient of sum (dz)^2 / 2 + bending (ddz)^2 / 2.
+    /// One step down the gradient of tension times sum (dz)^2 / 2 + bending (ddz)^2 / 2, in the
+    /// metric that weighs each place by the tension of its yarn, which takes the tension out again.
     void descend(const std::vector<double> &z, std::vector<double> &result) const {
         const auto yarn = [&](std::size_t first, int n) {
             const double step = 1 / (4 + 16 * bending_);
@@ -130,8 +139,8 @@ class Solver {
         return worst;
     }
 
-    /// The nearest heights with a level between the two yarns of a crossing: all room above it for
-    /// the one, all below for the other.
+    /// The nearest heights (in the same metric: what is pulled more gives way less) with a level
+    /// between the two yarns of a crossing: all room above it for the one, all below for the other.
     double project_crossing(std::vector<double> &z, int end, int pick) {
         const double sign = draft_.up(end, pick) ? 1 : -1;
         const int k0 = pick * points_ + points_ / 2, l0 = end * points_ + points_ / 2;
@@ -169,18 +178,18 @@ class Solver {
             double force = 0, slope = 0;
             for (const double value : upper_)
                 if (value < level) {
-                    force += level - value;
-                    slope += 1;
+                    force += pull_[0] * (level - value);
+                    slope += pull_[0];
                 }
             for (const double value : lower_)
                 if (value > level) {
-                    force -= value - level;
-                    slope += 1;
+                    force -= pull_[1] * (value - level);
+                    slope += pull_[1];
                 }
             (force > 0 ? high : low) = level;
-            if (std::abs(force) < 1e-9 * radius_)
+            if (std::abs(force) < 1e-9 * radius_ * std::min(pull_[0], pull_[1]))
                 break;
-            const double newton = level - force / std::max(slope, 1.0);
+            const double newton = level - force / std::max(slope, std::min(pull_[0], pull_[1]));
             level = newton > low && newton < high ? newton : (low + high) / 2;
         }
         return level;
@@ -190,7 +199,8 @@ class Solver {
     int points_, ny_, nx_;
     double radius_;
     Window across_weft_, across_warp_;
-    double bending_;
+    double bending_, overlap_ = 0;
+    std::array<double, 2> pull_; // warp, weft
     std::vector<double> upper_{}, lower_{};
 };
 
@@ -207,8 +217,10 @@ double YarnPaths::weft_height(int pick, int place) const {
 }
 
 YarnPaths solve_paths(const PathProblem &problem) {
-    const std::vector<double> z = Solver(problem).solve();
+    Solver solver(problem);
+    const std::vector<double> z = solver.solve();
     YarnPaths paths;
+    paths.overlap = solver.overlap();
     paths.warp_points = problem.draft.picks * problem.points;
     paths.weft_points = problem.draft.ends * problem.points;
     const auto middle = z.begin() + static_cast<std::ptrdiff_t>(problem.draft.ends) *

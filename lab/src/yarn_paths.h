@@ -13,8 +13,9 @@ struct PathProblem {
     Draft draft{};
     double warp_spacing = 0, weft_spacing = 0; ///< metres: of ends along x, of picks along y
     RaceTrack warp, weft;
-    int points = 12;             ///< per crossing, even
-    double stiffness_length = 0; ///< share of a crossing
+    int points = 12;                           ///< per crossing, even
+    double stiffness_length = 0;               ///< share of a crossing
+    double warp_tension = 1, weft_tension = 1; ///< of a yarn; the ratio matters
 };
 
 /// Heights in metres, row by row: yarn by yarn, each at `points` places per crossing. Place k of a
@@ -23,6 +24,7 @@ struct YarnPaths {
     std::vector<double> warp{}, weft{};
     int warp_points = 0, weft_points = 0; ///< of one yarn over the repeat
     double thickness = 0;                 ///< of the cloth, metres
+    double overlap = 0;                   ///< of yarns that found no room, metres
 
     double warp_height(int end, int place) const;
     double weft_height(int pick, int place) const;

@@ -240,6 +240,48 @@ TEST(WeaveGeometry, WarpAndWeftOfABalancedPlainWeaveAreAlike) {
     EXPECT_NEAR(report.thickness, 2 * cloth.warp.thickness(), 0.08 * cloth.warp.thickness());
 }
 
+// Crimp interchange [Peirce]: what one system loses the other gains. Exchanged pulls exchange the
+// crimps; equal ones of any size change nothing.
+TEST(WeaveGeometry, TheYarnsThatArePulledMoreLieStraighter) {
+    Weave cloth;
+    cloth.draft = plain_weave();
+    cloth.warp.width = cloth.weft.width = 0.15e-3;
+    const WeaveReport even = report_weave(cloth);
+    cloth.warp.tension = cloth.weft.tension = 7;
+    EXPECT_NEAR(report_weave(cloth).warp_crimp, even.warp_crimp, 1e-6);
+    double last = even.weft_crimp;
+    for (const double tension : {14.0, 35.0}) {
+        cloth.weft.tension = tension;
+        const WeaveReport tight = report_weave(cloth);
+        EXPECT_LT(tight.weft_crimp, 0.7 * last) << tension;
+        EXPECT_GT(tight.warp_crimp, 1.1 * even.warp_crimp) << tension;
+        last = tight.weft_crimp;
+        std::swap(cloth.warp.tension, cloth.weft.tension);
+        EXPECT_NEAR(report_weave(cloth).warp_crimp, tight.weft_crimp, 1e-4) << tension;
+        std::swap(cloth.warp.tension, cloth.weft.tension);
+    }
+}
+
+// What makes it shine: of what is seen of the warp, most is level along it.
+TEST(WeaveGeometry, FloatsOfASatinLieFlat) {
+    const auto level_share = [](const Weave &cloth) {
+        const FilamentRepeat repeat = build_filaments(cloth);
+        const int places = GeometryOptions{}.points_per_crossing * cloth.draft.picks;
+        int level = 0;
+        for (int k = 0; k < places; ++k) {
+            const double rise =
+                mean_height(repeat, 0, 0, (k + 1) % places) - mean_height(repeat, 0, 0, k);
+            level += std::abs(rise) < 0.02 * repeat.size.y / places;
+        }
+        return level / double(places);
+    };
+    Weave cloth = weave("black polyester satin");
+    EXPECT_GT(level_share(cloth), 0.65);
+    EXPECT_GT(level_share(weave("silk charmeuse")), 0.65);
+    cloth.weft.tension = cloth.warp.tension; // control: the weft bends too, and lifts the floats
+    EXPECT_LT(level_share(cloth), 0.5);
+}
+
 // [Peirce]: flat on the crossed yarn, an arc of the radius R about its edge, and a straight line to
 // the middle between two yarns, where the arc ends at the angle a with dx sin a + R/2 cos a = R.
 TEST(WeaveGeometry, AThreadInAPlainWeaveTakesThePathOfPeirce) {
@@ -331,6 +373,16 @@ TEST(WeaveGeometry, OptionsAndSizesOutOfRangeAreRefused) {
     hard.warp.twist_per_m = 3000;
     EXPECT_THROW(build_filaments(hard), Error);
     EXPECT_NO_THROW(build_filaments(hard, {.points_per_crossing = 64}));
+    Weave jammed = weave("black polyester satin");
+    jammed.warp.tension = 100;
+    jammed.weft.tension = 1;
+    try {
+        report_weave(jammed);
+        ADD_FAILURE();
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems()[0].where, "black polyester satin");
+        EXPECT_TRUE(error.problems()[0].what.starts_with("the yarns pass through each other"));
+    }
     Weave large = cloth;
     large.draft = twill(200, 200);
     EXPECT_THROW(build_filaments(large), Error);

@@ -101,6 +101,7 @@ filaments = 48
 section = "trilobal"
 corner_rounding = 0.25
 twist_per_m = -120
+tension = 2.5
 material = "silk"
 surface_roughness = 0.05
 transmission = [0.5, 0.25, 0.125]
@@ -116,6 +117,7 @@ refractive_index = 1.66
     EXPECT_EQ(cloth.warp.section, FilamentSection::trilobal);
     EXPECT_DOUBLE_EQ(cloth.warp.corner_rounding, 0.25);
     EXPECT_DOUBLE_EQ(cloth.warp.twist_per_m, -120);
+    EXPECT_DOUBLE_EQ(cloth.warp.tension, 2.5);
     EXPECT_EQ(cloth.warp.material, FiberMaterial::silk);
     EXPECT_DOUBLE_EQ(cloth.warp.surface_roughness, 0.05);
     EXPECT_EQ(cloth.warp.transmission, (std::array<double, 3>{0.5, 0.25, 0.125}));

@@ -12,6 +12,7 @@
 ///     flattening = 0.4           # thickness / width
 ///     filaments = 24
 ///     section = "round"          # triangular, trilobal
+///     tension = 1                # warp over weft: the one that is pulled more lies straighter
 ///     material = "polyester"     # silk, cellulose; or refractive_index = 1.6
 ///     transmission = [0, 0, 0]   # of the dyed filament in red, green and blue
 
@@ -38,6 +39,10 @@ struct Yarn {
     FilamentSection section = FilamentSection::round; ///< of a filament
     double corner_rounding = 0.3;                     ///< 0 sharp to 1 round; not of a round one
     double twist_per_m = 0;                           ///< turns; > 0 is Z, < 0 is S; up to 4000
+    /// Pull on a yarn while the cloth is woven and finished, 0.01 to 100. Only the ratio of warp to
+    /// weft matters: the system that is pulled more lies straighter, and the other takes the crimp
+    /// (crimp interchange, [Peirce]).
+    double tension = 1;
     FiberMaterial material = FiberMaterial::polyester;
     std::optional<double> refractive_index{}; ///< instead of the material's; 1 to 3
     double surface_roughness = 0.08; ///< standard deviation of a filament's slope, radians, 0 to 1

@@ -9,7 +9,7 @@
 /// Its height is that of an elastic thread under tension, with some stiffness, that rests on the
 /// yarns it crosses: the heights of all yarns of the repeat together have the least energy under
 /// the condition that no two yarns come nearer than half the sum of their thicknesses. So floats
-/// are nearly straight, and the crimp divides itself between warp and weft.
+/// are nearly straight, and the crimp divides itself between warp and weft by Yarn::tension.
 ///
 /// **Filaments** lie in rings parallel to the race-track section of their yarn, so that twist moves
 /// each along its ring and they never meet.
@@ -56,8 +56,8 @@ struct WeaveReport {
 /// Filaments of one repeat, centred on z = 0 with the face of the cloth at +z. The turn of a
 /// section is counted from the direction across the yarn in the plane of the cloth, right-handed
 /// about the path; between the last point and the first it is to be taken modulo a whole turn.
-/// Throws Error if the weave fails check_weave, an option is out of range, or the repeat would need
-/// more than 20 million points.
+/// Throws Error if the weave fails check_weave, an option is out of range, the repeat would need
+/// more than 20 million points, or the yarns find no paths clear of each other.
 FilamentRepeat build_filaments(const Weave &weave, const GeometryOptions &options = {});
 
 /// Numbers about the same geometry. Throws like build_filaments.
