@@ -72,6 +72,7 @@ TEST(RoughSurface, IsAMirrorOfFresnelWhereItIsFlat) {
             EXPECT_GT(glm::dot(r.direction, glm::vec3(-from.x, -from.y, from.z)), 0.99f);
         }
         EXPECT_NEAR(energy / fresnel(from.z, 1.6), 1, 4e-3) << theta;
+        EXPECT_GT(std::abs(energy / fresnel(from.z, 1.63) - 1), 4e-3) << theta << ", control";
     }
 }
 
@@ -80,6 +81,8 @@ TEST(RoughSurface, IsALambertianWhereNothingIsReflected) {
     for (const double mu : {0.05, 0.3, 0.9, 1.0})
         EXPECT_NEAR(surface.exit().per_sr(mu) / mu, 1 / pi, 1e-6);
     EXPECT_EQ(surface.single_per_sr({0, 0, 1}, {0, 0, 1}), 0);
+    const RoughSurface glossy({.refractive_index = 1.6, .transmission = 1});
+    EXPECT_GT(std::abs(glossy.exit().per_sr(0.3) / 0.3 - 1 / pi), 1e-3) << "control";
 }
 
 /// Largest |z| between counts of sampled directions and the densities times `factor`.
@@ -128,31 +131,46 @@ TEST(RoughSurface, SamplesWhatItEvaluates) {
         }
 }
 
-TEST(ViewTree, GivesEveryViewItsChance) {
+/// A choice of one of `points` at `centre`, every one equally likely.
+ViewTree::Choice even_choice(const std::vector<glm::vec3> &points, Random &random) {
+    const auto count = static_cast<float>(points.size());
+    return {static_cast<std::uint32_t>(random.unit() * count), 1 / count};
+}
+
+/// |z| of the mean of x / chance against the sum of x over all points. \param lie told of the
+/// chance, 1 for the truth
+double tree_z(double lie) {
     std::vector<glm::vec3> points;
     for (const DirectionPair &p : ViewGrid(0, 0, 15).pairs)
         points.emplace_back(toward(p.theta_r, p.phi_r));
     const ViewTree tree(points, std::vector<float>(points.size(), 1.0f), 0.2f);
-    Random random(1, 1, 1);
-    // The mean of 1 / chance is the number of points, and of x / chance the sum of x
     constexpr int kCount = 400000;
     const glm::vec3 centre(toward(0.5, 0.7));
-    double sum = 0, square = 0, expected = 0;
     const auto value = [&](const glm::vec3 &p) {
         return std::exp(-40 * glm::dot(p - centre, p - centre));
     };
+    double expected = 0;
     for (const glm::vec3 &p : points)
         expected += value(p);
+    double sum = 0, square = 0, even_square = 0;
+    Random random(1, 1, 1);
     for (int i = 0; i < kCount; ++i) {
-        const ViewTree::Choice c = tree.sample(centre, random);
-        const double x = value(points[c.index]) / c.chance;
+        const ViewTree::Choice c = tree.sample(centre, random), e = even_choice(points, random);
+        const double x = value(points[c.index]) / (lie * c.chance);
+        const double y = value(points[e.index]) / e.chance;
         sum += x;
         square += x * x;
+        even_square += y * y;
     }
+    // What the tree is for: less spread than an even choice has
+    EXPECT_LT(square, 0.5 * even_square);
     const double mean = sum / kCount;
-    const double sigma = std::sqrt((square / kCount - mean * mean) / kCount);
-    EXPECT_LT(std::abs(mean - expected), 4 * sigma);
-    EXPECT_LT(sigma / mean, 0.01);
+    return std::abs(mean - expected) / std::sqrt((square / kCount - mean * mean) / kCount);
+}
+
+TEST(ViewTree, GivesEveryViewItsChance) {
+    EXPECT_LT(tree_z(1), 4);
+    EXPECT_GT(tree_z(1.02), 4) << "control";
 }
 
 /// Largest |z| of the cylinders' rows against their closed form times `factor`.

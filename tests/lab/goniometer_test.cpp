@@ -128,6 +128,11 @@ TEST(Goniometer, NeitherMakesNorLosesLight) {
             EXPECT_NEAR(light.reflected + light.transmitted, 1, 1e-12);
             EXPECT_GT(light.reflected, 0.1);
         }
+        // Control: a filament that keeps a thousandth
+        const FilamentOptics dim{.section = section, .transmission = 0.999};
+        for (const LightReport &light :
+             measure(close_layers(dim), two_lights(), few_photons(4)).lights)
+            EXPECT_LT(light.reflected + light.transmitted, 1 - 1e-4);
         const FilamentOptics black{.section = section};
         for (const LightReport &light :
              measure(close_layers(black), two_lights(), few_photons(4)).lights)
