@@ -28,9 +28,16 @@ void add_views(Directions &directions, double theta_i_deg, double phi_i_deg, dou
 } // namespace
 
 Directions normal_incidence_quadrant(double step_deg) {
+    return normal_incidence(step_deg, Symmetry::orthotropic);
+}
+
+Directions normal_incidence(double step_deg, Symmetry symmetry) {
     check_step(step_deg, "step_deg");
-    Directions directions{.pairs = {}, .symmetry = Symmetry::orthotropic};
-    add_views(directions, 0, 0, step_deg, step_deg, 90 + kSlack);
+    Directions directions{.pairs = {}, .symmetry = symmetry};
+    const double phi_end_deg = symmetry == Symmetry::orthotropic ? 90 + kSlack
+                               : symmetry == Symmetry::half_turn ? 180 - kSlack
+                                                                 : 360 - kSlack;
+    add_views(directions, 0, 0, step_deg, step_deg, phi_end_deg);
     return directions;
 }
 

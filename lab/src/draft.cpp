@@ -186,6 +186,21 @@ double warp_share(const Draft &draft) {
     return static_cast<double>(up) / static_cast<double>(draft.warp_up.size());
 }
 
+bool is_same_reversed(const Draft &draft, bool ends, bool picks) {
+    const auto is_same = [&](int right, int up) {
+        for (int p = 0; p < draft.picks; ++p)
+            for (int e = 0; e < draft.ends; ++e)
+                if (draft.up(e, p) != draft.up(right + (ends ? -e : e), up + (picks ? -p : p)))
+                    return false;
+        return true;
+    };
+    for (int up = 0; up < draft.picks; ++up)
+        for (int right = 0; right < draft.ends; ++right)
+            if (is_same(right, up))
+                return true;
+    return false;
+}
+
 Draft smallest_repeat(const Draft &draft) {
     const auto repeats = [&](int step_end, int step_pick) {
         for (int p = 0; p < draft.picks; ++p)

@@ -47,6 +47,14 @@ void check_weave(const Weave &weave, const std::string &where) {
     check_yarn(weave.weft, where + ".weft");
 }
 
+Symmetry symmetry_of(const Weave &weave) {
+    const bool twisted = weave.warp.twist_per_m != 0 || weave.weft.twist_per_m != 0;
+    if (!twisted && is_same_reversed(weave.draft, true, false) &&
+        is_same_reversed(weave.draft, false, true))
+        return Symmetry::orthotropic;
+    return is_same_reversed(weave.draft, true, true) ? Symmetry::half_turn : Symmetry::none;
+}
+
 double transmission(const Yarn &yarn, double wavelength_nm) {
     constexpr double kRed_nm = 610, kGreen_nm = 550, kBlue_nm = 465;
     const auto [red, green, blue] = yarn.transmission;

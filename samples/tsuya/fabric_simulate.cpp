@@ -66,10 +66,12 @@ class SimulateCommand final : public Command {
 
     Status run(Console &console) override {
         const lab::Weave weave = weave_named(weave_);
-        const lab::Directions directions = read_directions();
-        if (directions.symmetry == Symmetry::orthotropic &&
-            (weave.warp.twist_per_m != 0 || weave.weft.twist_per_m != 0))
-            console.warning(weave_ + ": twisted yarn is not orthotropic, as the table will claim");
+        const Symmetry symmetry = lab::symmetry_of(weave);
+        const lab::Directions directions = read_directions(symmetry);
+        if (directions.symmetry > symmetry)
+            console.warning(weave_ + ": its symmetry is " + std::string(name_of(symmetry)) +
+                            " and not " + std::string(name_of(directions.symmetry)) +
+                            ", as the table will claim");
         settings_.checkpoint = output_;
         settings_.checkpoint += ".checkpoint";
         scene::prepare_output_file(output_, {".csv"});
@@ -88,9 +90,9 @@ class SimulateCommand final : public Command {
     }
 
   private:
-    lab::Directions read_directions() const {
+    lab::Directions read_directions(Symmetry symmetry) const {
         if (directions_ == "normal")
-            return lab::normal_incidence_quadrant(step_deg_.value_or(kNormalStep));
+            return lab::normal_incidence(step_deg_.value_or(kNormalStep), symmetry);
         if (directions_ != "paper") {
             if (step_deg_)
                 throw Error({"--step has no meaning for the directions of a table", "--step",

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tsuya/lab/goniometer.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -68,6 +69,33 @@ TEST(Weave, OpticsFollowMaterialDyeAndWavelength) {
     EXPECT_NEAR(optics(shot.warp, 589).refractive_index, 1.560, 0.001);
     EXPECT_EQ(optics(weave("black polyester satin").warp, 500).transmission, 0);
     EXPECT_EQ(optics({.refractive_index = 1.7}, 500).refractive_index, 1.7);
+}
+
+TEST(Weave, SymmetryIsThatOfDraftAndTwist) {
+    EXPECT_EQ(symmetry_of(weave("polyester taffeta")), Symmetry::orthotropic);
+    for (const char *name : {"black polyester satin", "twill lining", "silk charmeuse"})
+        EXPECT_EQ(symmetry_of(weave(name)), Symmetry::half_turn) << name;
+    Weave cloth;
+    cloth.draft = twill(2, 2);
+    EXPECT_FALSE(is_same_reversed(cloth.draft, true, false)); // the line rises the other way
+    EXPECT_TRUE(is_same_reversed(cloth.draft, true, true));
+    cloth.draft = plain_weave();
+    cloth.warp.twist_per_m = 500;
+    EXPECT_EQ(symmetry_of(cloth), Symmetry::half_turn);
+    // A hook: no mirror and no turn brings it back
+    cloth.draft = {4, 4, {1, 1, 1, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1}};
+    EXPECT_EQ(symmetry_of(cloth), Symmetry::none);
+}
+
+TEST(Weave, ViewsFromAboveCoverWhatTheSymmetryLeaves) {
+    const auto count = [](Symmetry symmetry) {
+        const Directions directions = normal_incidence(15, symmetry);
+        EXPECT_EQ(directions.symmetry, symmetry);
+        return directions.pairs.size();
+    };
+    EXPECT_EQ(count(Symmetry::orthotropic), 1u + 5 * 7); // 0 to 90 degrees
+    EXPECT_EQ(count(Symmetry::half_turn), 1u + 5 * 12);  // 0 to 165
+    EXPECT_EQ(count(Symmetry::none), 1u + 5 * 24);       // 0 to 345
 }
 
 TEST(Weave, NumbersOutOfRangeAreNamed) {

@@ -57,6 +57,9 @@ std::vector<int> warp_floats(const Draft &draft);
 std::vector<int> weft_floats(const Draft &draft);
 /// Of all crossings, those with the warp above; 0 to 1.
 double warp_share(const Draft &draft);
+/// Whether the weave is the same but for a shift when its ends and/or its picks are counted
+/// backwards: a mirror image, or with both a half turn.
+bool is_same_reversed(const Draft &draft, bool ends, bool picks);
 /// The same weave with the smallest repeat.
 Draft smallest_repeat(const Draft &draft);
 

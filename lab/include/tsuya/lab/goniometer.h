@@ -41,6 +41,9 @@ struct Directions {
 /// Light from straight above and one quadrant of views, both angles every `step_deg` below (theta)
 /// and up to (phi) 90 degrees; straight up once. Throws Error unless step_deg is in (0, 90].
 Directions normal_incidence_quadrant(double step_deg);
+/// The same for cloth of any symmetry: a quadrant of views if it is orthotropic, a half of them
+/// (phi below 180) with half_turn, else all.
+Directions normal_incidence(double step_deg, Symmetry symmetry);
 
 /// The set of [Takeda]: theta_i every 15 degrees below 90 on the planes phi_i = 0, 45, 90; theta_r
 /// every 3 and phi_r every 5 degrees. What differs by nothing is there once (straight down and

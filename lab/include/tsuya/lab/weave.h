@@ -26,6 +26,7 @@
 #include "tsuya/lab/draft.h"
 #include "tsuya/lab/filaments.h"
 #include "tsuya/lab/refractive_index.h"
+#include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya::lab {
 
@@ -75,6 +76,11 @@ Weave read_weave(const std::filesystem::path &file);
 /// Throws Error naming `where` and the member: a number out of its range, yarns wider than their
 /// spacing, or a draft that does not hold (check_draft).
 void check_weave(const Weave &weave, const std::string &where);
+
+/// What the reflectance of the cloth may claim: orthotropic if the draft is its own mirror image
+/// both ways and no yarn is twisted (a mirror turns Z twist into S), half_turn if the draft is
+/// itself after half a turn, else none. Twills and most satins have diagonals and are half_turn.
+Symmetry symmetry_of(const Weave &weave);
 
 /// Transmission of the dye at a wavelength, linear between the three bands and constant beyond.
 double transmission(const Yarn &yarn, double wavelength_nm);
