@@ -10,6 +10,9 @@
 
 namespace tsuya::garment {
 
+/// The time of a vertex grows with the square of its faces, and more; cloth needs no such vertices.
+inline constexpr std::uint32_t kMaxValence = 256;
+
 /// One face's side of an edge. `corner` is where the side starts.
 struct EdgeUse {
     std::uint32_t low = 0, high = 0; ///< vertices, low < high

@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+/// Sides of one edge beyond which none are paired: cloth has no so many layers in one seam, and the
+/// time grows with the third power.
+constexpr std::size_t kMostPaired = 64;
+
 /// Joins sides of edges and keeps the fans as sets of corners.
 class FanBuilder {
   public:
@@ -77,6 +81,8 @@ class FanBuilder {
     }
 
     void pair_edge(std::vector<EdgeUse> uses) {
+        if (uses.size() > kMostPaired)
+            return;
         while (uses.size() > 1) {
             std::size_t best_i = 0, best_j = 0;
             double best = std::numeric_limits<double>::max();
@@ -104,7 +110,7 @@ class FanBuilder {
 
 } // namespace
 
-std::size_t split_fans(PolygonMesh &mesh) {
+std::size_t split_fans(PolygonMesh &mesh, PositionRecipe &recipe) {
     FanBuilder fans(mesh);
     // The fan of a vertex' first corner keeps the vertex.
     std::vector<std::uint32_t> vertex_of_fan(mesh.corner_position.size(), kNone);
@@ -118,14 +124,14 @@ std::size_t split_fans(PolygonMesh &mesh) {
             taken[old] = true;
         } else if (v == kNone) {
             v = static_cast<std::uint32_t>(mesh.position.size());
-            mesh.position.push_back(glm::dvec3(mesh.position[old]));
+            recipe.append_middle(mesh.position, old, old);
         }
         mesh.corner_position[c] = v;
     }
     return mesh.position.size() - before;
 }
 
-std::size_t detach_faces(PolygonMesh &mesh) {
+std::size_t detach_faces(PolygonMesh &mesh, PositionRecipe &recipe) {
     std::set<std::uint32_t> faces;
     EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
         if (uses.size() > 2 || (uses.size() == 2 && uses[0].forward == uses[1].forward))
@@ -134,9 +140,9 @@ std::size_t detach_faces(PolygonMesh &mesh) {
     });
     for (const std::uint32_t f : faces)
         for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
-            const glm::dvec3 p = mesh.position[mesh.corner_position[c]];
+            const std::uint32_t v = mesh.corner_position[c];
             mesh.corner_position[c] = static_cast<std::uint32_t>(mesh.position.size());
-            mesh.position.push_back(p);
+            recipe.append_middle(mesh.position, v, v);
         }
     return faces.size();
 }

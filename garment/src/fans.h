@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/garment/position_recipe.h"
 #include "tsuya/garment/report.h"
 
 namespace tsuya::garment {
@@ -14,10 +15,10 @@ namespace tsuya::garment {
 /// layers of a pleat, a pocket), sides that are neighbours around an end of the edge are paired
 /// first, then sides of different panels, then the flattest; what is left over stays open.
 /// Returns the number of new vertices.
-std::size_t split_fans(PolygonMesh &mesh);
+std::size_t split_fans(PolygonMesh &mesh, PositionRecipe &recipe);
 
 /// Gives faces whose edges are still not manifold vertices of their own. Returns their number.
-std::size_t detach_faces(PolygonMesh &mesh);
+std::size_t detach_faces(PolygonMesh &mesh, PositionRecipe &recipe);
 
 /// Keeps the place of the first finding of each key.
 void keep_place(FirstPlaces &places, const std::string &key, const glm::dvec3 &p);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "measure.h"
@@ -16,6 +17,8 @@ std::string number(double value) {
     text << value;
     return text.str();
 }
+
+std::string degrees(double radians) { return number(radians * 180.0 / std::numbers::pi); }
 
 class Findings {
   public:
@@ -63,8 +66,8 @@ void find_units(const Report &report, Findings &findings) {
     const std::string unit = likely_unit(height);
     findings.add(Severity::warning, "unusual_size",
                  "the mesh measures " + number(height) + " m at most",
-                 unit.empty() ? "state the unit of the file"
-                              : "if the file is in " + unit + ", state that unit");
+                 unit.empty() ? "read as metres; state the unit of the file"
+                              : "read as metres; if the file is in " + unit + ", state that unit");
 }
 
 void find_topology(const Report &r, Findings &f) {
@@ -77,7 +80,7 @@ void find_topology(const Report &r, Findings &f) {
             "dropped");
     f.count(r.file.non_manifold_edges, warning, "non_manifold_edges",
             "edges border more than two faces", "taken apart in pairs");
-    f.count(r.file.non_manifold_vertices, note, "non_manifold_vertices",
+    f.count(r.file.non_manifold_vertices, warning, "non_manifold_vertices",
             "fans of faces meet others in a vertex alone", "given a vertex of their own");
     f.count(r.file.flipped_faces + r.joined.flipped_faces, warning, "flipped_faces",
             "faces are turned against their neighbours", "turned over");
@@ -87,8 +90,8 @@ void find_topology(const Report &r, Findings &f) {
             "edges join more than two layers of cloth", "layers joined in pairs");
     f.count(r.file.detached_faces + r.joined.detached_faces, warning, "detached_faces",
             "faces could not be kept with their neighbours", "cut off");
-    f.count(r.joined.duplicate_faces + r.joined.degenerate_faces, warning, "collapsed_faces",
-            "faces collapsed when seams were joined", "dropped");
+    f.count(r.joined.duplicate_faces + r.joined.degenerate_faces, note, "collapsed_faces",
+            "faces lost their area when seams were joined", "dropped");
 }
 
 void find_seams(const Report &r, Findings &f) {
@@ -100,6 +103,8 @@ void find_seams(const Report &r, Findings &f) {
             "boundary vertices lie on another panel's edge", "put into that edge");
     f.count(r.seams.slits, Severity::note, "slits",
             "gaps along seams are wider than the tolerance but narrow", "closed");
+    f.count(r.seams.collapsed_edges, Severity::note, "collapsed_edges",
+            "edges shorter than the tolerance hold a gap open", "their ends made one vertex");
     f.count(r.seams.unresolved, Severity::warning, "unresolved_seams",
             "boundary vertices lie near another boundary and could not be joined",
             "look at the seam, or state another tolerance");
@@ -107,7 +112,30 @@ void find_seams(const Report &r, Findings &f) {
     for (const BoundaryLoop &loop : r.openings)
         length += loop.length;
     f.count(r.openings.size(), Severity::note, "openings",
-            "openings with " + number(length) + " m of edge", "");
+            "openings with " + number(length) + " m of edge",
+            "left open; the edge becomes a smooth curve");
+}
+
+/// Cloth shears a lot before it buckles, but hardly beyond this.
+constexpr double kUsualShear = 35.0 * std::numbers::pi / 180.0;
+/// Share of stretch between the 5th and 95th percentile that draped cloth hardly has.
+constexpr double kUsualStretch = 1.3;
+
+void find_shear(const Report &r, Findings &f) {
+    constexpr double kRight = 0.5 * std::numbers::pi;
+    const double shear = std::max(kRight - r.warp_weft_angle.p5, r.warp_weft_angle.p95 - kRight);
+    if (r.warp_weft_angle.p50 > 0.0 && shear > kUsualShear)
+        f.add(Severity::note, "strong_shear",
+              "warp and weft enclose " + degrees(r.warp_weft_angle.p5) + " to " +
+                  degrees(r.warp_weft_angle.p95) + " degrees (5th and 95th percentile)",
+              "both directions kept; the warp leads");
+    for (const auto &[name, p] :
+         {std::pair("u", r.metres_per_uv_weft), std::pair("v", r.metres_per_uv_warp)})
+        if (p.p5 > 0.0 && p.p95 / p.p5 > kUsualStretch)
+            f.add(Severity::note, "uneven_stretch",
+                  std::string(name) + " measures " + number(p.p5) + " to " + number(p.p95) +
+                      " m a unit (5th and 95th percentile)",
+                  "kept; the pattern stretches with the cloth");
 }
 
 void find_uv(const Report &r, Findings &f) {
@@ -130,7 +158,8 @@ void find_uv(const Report &r, Findings &f) {
         f.add(Severity::warning, "uneven_uv_scale",
               "u measures " + number(r.metres_per_uv_weft.p50) + " m and v " +
                   number(r.metres_per_uv_warp.p50) + " m a unit",
-              "the pattern will look stretched");
+              "kept; the pattern will look stretched");
+    find_shear(r, f);
 }
 
 } // namespace

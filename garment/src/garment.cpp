@@ -6,14 +6,11 @@
 #include <cmath>
 
 #include "tsuya/garment/check.h"
-#include "tsuya/garment/obj.h"
+#include "tsuya/garment/mesh_file.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
 namespace {
-
-/// Above this number of UV islands they do not stand for panels (a file with one UV a corner).
-constexpr std::uint32_t kMaxIslandPanels = 256;
 
 void stop_here(const Progress &progress) {
     if (progress.stopped())
@@ -79,13 +76,22 @@ template <typename Work> auto naming(const std::string &where, Work &&work) {
     }
 }
 
-void name_panels(PolygonMesh &mesh) {
-    std::uint32_t islands = 0;
-    if (!mesh.panel_name.empty() || mesh.uv.empty())
-        return;
-    uv_islands(mesh, islands);
-    if (islands <= kMaxIslandPanels)
-        panels_from_uv_islands(mesh);
+/// Turns the grain of a panel to the threads that its material states, unless the caller did.
+void use_hint(const FabricHint &hint, FrameOptions &frames, std::vector<Finding> &findings) {
+    Finding finding{Severity::note, "fabric_hint", "", "",
+                    "no fabric is made of it; name one for the panel"};
+    finding.what = "material '" + hint.material + "' of panel '" + hint.panel + "' states";
+    if (hint.anisotropy_strength > 0.0) {
+        finding.what += " anisotropy " + std::to_string(hint.anisotropy_strength) +
+                        ", so threads at " + std::to_string(glm::degrees(hint.thread_angle)) +
+                        " degrees from +u";
+        if (frames.grain.try_emplace(hint.panel, hint.grain()).second)
+            finding.action = "the warp of this panel laid along its threads";
+    }
+    if (hint.sheen_colour)
+        finding.what += hint.anisotropy_strength > 0.0 ? " and sheen" : " sheen";
+    if (hint.anisotropy_strength > 0.0 || hint.sheen_colour)
+        findings.push_back(std::move(finding));
 }
 
 } // namespace
@@ -111,7 +117,6 @@ LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::s
         PolygonMesh metres = mesh;
         for (glm::dvec3 &p : metres.position)
             p *= options.metres_per_unit;
-        name_panels(metres);
         stop_here(progress);
         progress("garment: join seams", 0.0);
         Prepared prepared = prepare(metres, options.seams);
@@ -143,16 +148,22 @@ LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::s
     });
 }
 
+LoadedGarment load(const MeshFile &file, const Options &options, const std::string &where,
+                   const Progress &progress) {
+    Options with_hints = options;
+    std::vector<Finding> findings;
+    for (const FabricHint &hint : file.hints)
+        use_hint(hint, with_hints.frames, findings);
+    LoadedGarment out = load(file.mesh, with_hints, where, progress);
+    out.hints = file.hints;
+    out.report.findings.insert(out.report.findings.end(), findings.begin(), findings.end());
+    return out;
+}
+
 LoadedGarment load(const std::filesystem::path &path, const Options &options,
                    const Progress &progress) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".obj")
-        throw Error({"'" + extension + "' is not a mesh format that is read", path.string(),
-                     "expected .obj"});
     progress("garment: read", 0.0);
-    return load(read_obj(path), options, path.string(), progress);
+    return load(read_mesh(path), options, path.string(), progress);
 }
 
 } // namespace tsuya::garment

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "edges.h"
@@ -27,8 +28,14 @@ PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
     out.face_panel.reserve(mesh.face_panel.size());
     std::vector<std::uint32_t> vertices, sorted;
     std::vector<std::int32_t> uvs;
-    // Faces by their lowest vertex, as a list, to find duplicates.
-    std::vector<std::uint32_t> head(mesh.position.size(), kNone), next;
+    // Faces by a hash of their vertices, as lists, to find duplicates.
+    std::vector<std::uint32_t> head(std::bit_ceil(2 * mesh.face_count() + 1), kNone), next;
+    const auto slot = [&] {
+        std::uint64_t hash = 0;
+        for (const std::uint32_t v : sorted)
+            hash = std::rotl(hash ^ v, 23) * 0x9e3779b97f4a7c15u;
+        return static_cast<std::size_t>(hash >> 32) & (head.size() - 1);
+    };
     const auto same_vertices = [&](std::uint32_t f) {
         if (out.face_size(f) != sorted.size())
             return false;
@@ -53,7 +60,8 @@ PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
             keep_place(report.first_place, "degenerate_faces", first_point(mesh, f));
             continue;
         }
-        std::uint32_t duplicate = head[sorted.front()];
+        std::uint32_t &first = head[slot()];
+        std::uint32_t duplicate = first;
         while (duplicate != kNone && !same_vertices(duplicate))
             duplicate = next[duplicate];
         if (duplicate != kNone) {
@@ -61,8 +69,8 @@ PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
             keep_place(report.first_place, "duplicate_faces", first_point(mesh, f));
             continue;
         }
-        next.push_back(head[sorted.front()]);
-        head[sorted.front()] = static_cast<std::uint32_t>(out.face_count());
+        next.push_back(first);
+        first = static_cast<std::uint32_t>(out.face_count());
         out.add_face(vertices, uvs, mesh.face_panel[f]);
     }
     return out;
@@ -121,28 +129,30 @@ void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
     }
 }
 
-void drop_isolated_vertices(PolygonMesh &mesh, ManifoldReport &report) {
+void drop_isolated_vertices(PolygonMesh &mesh, ManifoldReport &report, PositionRecipe &recipe) {
     std::vector<std::uint32_t> number(mesh.position.size(), kNone);
     for (const std::uint32_t v : mesh.corner_position)
         number[v] = 0;
-    std::uint32_t count = 0;
-    for (std::size_t v = 0; v < number.size(); ++v)
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t v = 0; v < number.size(); ++v)
         if (number[v] == 0) {
-            number[v] = count;
-            mesh.position[count++] = mesh.position[v];
+            number[v] = static_cast<std::uint32_t>(kept.size());
+            kept.push_back(v);
         }
-    report.isolated_vertices += mesh.position.size() - count;
-    mesh.position.resize(count);
+    if (kept.size() == mesh.position.size())
+        return;
+    report.isolated_vertices += mesh.position.size() - kept.size();
+    recipe.keep(mesh.position, std::move(kept));
     for (std::uint32_t &v : mesh.corner_position)
         v = number[v];
 }
 
 } // namespace
 
-PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report) {
+PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report, PositionRecipe &recipe) {
     PolygonMesh out = drop_faces(mesh, report);
     // Vertices that only dropped faces used are not isolated in the file, yet go as well.
-    drop_isolated_vertices(out, report);
+    drop_isolated_vertices(out, report, recipe);
     orient_faces(out, report);
     EdgeTable(out).for_each_edge([&](std::span<const EdgeUse> uses) {
         const glm::dvec3 &p = out.position[uses[0].low];
@@ -154,10 +164,10 @@ PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report) {
             keep_place(report.first_place, "unorientable_edges", p);
         }
     });
-    report.non_manifold_vertices += split_fans(out);
-    while (const std::size_t detached = detach_faces(out)) {
+    report.non_manifold_vertices += split_fans(out, recipe);
+    while (const std::size_t detached = detach_faces(out, recipe)) {
         report.detached_faces += detached;
-        split_fans(out);
+        split_fans(out, recipe);
     }
     return out;
 }

@@ -34,7 +34,8 @@ class PlaceGrid {
 
   private:
     glm::i64vec3 cell_of(const glm::dvec3 &p) const {
-        return glm::i64vec3(glm::floor((p - origin_) / cell_));
+        constexpr double kFarthest = 1e15; // cells; what is farther shares the last
+        return glm::i64vec3(glm::floor(glm::clamp((p - origin_) / cell_, -kFarthest, kFarthest)));
     }
     static std::uint64_t key(const glm::i64vec3 &c) {
         // 21 bits a coordinate; far cells may share a key, which costs time alone.

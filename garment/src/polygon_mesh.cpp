@@ -49,15 +49,20 @@ void check_lengths(const PolygonMesh &mesh, Problems &problems) {
     problems.throw_if_any();
 }
 
+/// Largest coordinate: squares of areas still fit into a double.
+constexpr double kLargest = 1e30;
+
 void check_numbers(const PolygonMesh &mesh, Problems &problems) {
     for (std::size_t i = 0; i < mesh.position.size(); ++i) {
         const glm::dvec3 &p = mesh.position[i];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            problems.add("vertex " + std::to_string(i) + " is not finite", "expected numbers");
+        if (!(glm::dot(p, p) <= kLargest * kLargest))
+            problems.add("vertex " + std::to_string(i) + " is not finite or too far away",
+                         "expected numbers below 1e30");
     }
     for (std::size_t i = 0; i < mesh.uv.size(); ++i)
-        if (!std::isfinite(mesh.uv[i].x) || !std::isfinite(mesh.uv[i].y))
-            problems.add("UV " + std::to_string(i) + " is not finite", "expected numbers");
+        if (!(glm::dot(mesh.uv[i], mesh.uv[i]) <= kLargest * kLargest))
+            problems.add("UV " + std::to_string(i) + " is not finite or too large",
+                         "expected numbers below 1e30");
 }
 
 } // namespace

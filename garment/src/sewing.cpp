@@ -93,9 +93,9 @@ Sewn insert_vertices(const Sewn &sewn, const std::vector<Insertion> &insertions)
     return out;
 }
 
-void halve_coincident_edges(Sewn &sewn) {
+void halve_coincident_edges(Sewn &sewn, PositionRecipe &recipe) {
     const PolygonMesh &mesh = sewn.mesh;
-    std::vector<glm::dvec3> middles;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> middles;
     std::vector<Insertion> insertions;
     EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
         if (uses.size() < 3)
@@ -110,8 +110,7 @@ void halve_coincident_edges(Sewn &sewn) {
                     continue;
                 const auto middle =
                     static_cast<std::uint32_t>(mesh.position.size() + middles.size());
-                const glm::dvec3 low = mesh.position[uses[i].low];
-                middles.push_back(low + 0.5 * (mesh.position[uses[i].high] - low));
+                middles.emplace_back(uses[i].low, uses[i].high);
                 for (const EdgeUse &use : {uses[i], uses[j]})
                     insertions.push_back({use.corner, 0.5, middle, 0.0, sewn.next_origin});
                 ++sewn.next_origin;
@@ -119,7 +118,8 @@ void halve_coincident_edges(Sewn &sewn) {
     });
     if (insertions.empty())
         return;
-    sewn.mesh.position.insert(sewn.mesh.position.end(), middles.begin(), middles.end());
+    for (const auto &[a, b] : middles)
+        recipe.append_middle(sewn.mesh.position, a, b);
     std::sort(insertions.begin(), insertions.end(),
               [](const Insertion &a, const Insertion &b) { return a.corner < b.corner; });
     sewn = insert_vertices(sewn, insertions);

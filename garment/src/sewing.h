@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/garment/position_recipe.h"
 
 namespace tsuya::garment {
 
@@ -34,6 +35,6 @@ Sewn insert_vertices(const Sewn &sewn, const std::vector<Insertion> &insertions)
 
 /// Where joining laid an edge inside a panel onto another edge (a fold one edge deep), the edge
 /// gets a vertex in its middle, so that the two stay different.
-void halve_coincident_edges(Sewn &sewn);
+void halve_coincident_edges(Sewn &sewn, PositionRecipe &recipe);
 
 } // namespace tsuya::garment

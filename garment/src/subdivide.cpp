@@ -29,8 +29,6 @@ constexpr int kMaxLevel = 8;
 /// only approximates it. The normal there errs by some 0.01 at level 2, 0.0015 at level 4, whose
 /// time is 15 % longer in all.
 constexpr int kApproximationLevel = 4;
-/// The time of a vertex grows with the square of its faces, and more; cloth needs no such vertices.
-constexpr std::uint32_t kMaxValence = 256;
 constexpr double kInfinitelySharp = 10.0; // Sdc::Crease::SHARPNESS_INFINITE
 
 using Factory = Bfr::RefinerSurfaceFactory<Bfr::SurfaceFactoryCacheThreaded<

@@ -1,13 +1,16 @@
 // tsuya garment: what is wrong with a mesh, and its limit surface.
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "command.h"
 #include "json_file.h"
 #include "tsuya/garment/check.h"
 #include "tsuya/garment/garment.h"
+#include "tsuya/garment/mesh_file.h"
 #include "tsuya/garment/obj.h"
+#include "tsuya/garment/ply.h"
 #include "tsuya/scene/output_file.h"
 
 namespace tsuya::program {
@@ -25,13 +28,14 @@ class GarmentCommand final : public Command {
                       "With --strict, a warning gives exit status 4.");
         subdivide_.footer("Example:\n  tsuya garment subdivide dress.obj -o fine.obj --level 2");
         for (CLI::App *app : {&check_, &subdivide_}) {
-            app->add_option("mesh", mesh_, "MESH.obj")->required();
+            app->add_option("mesh", mesh_, "MESH.obj, .gltf, .glb, .ply or .off")->required();
             app->add_option("--unit", unit_, "Of the mesh: m, dm, cm, mm, in")
                 ->capture_default_str();
         }
         check_.add_flag("--json", json_, "The report as JSON");
         check_.add_flag("--strict", strict_, "Fail where there is a warning");
-        subdivide_.add_option("-o,--output", output_, "OUT.obj")->required();
+        subdivide_.add_option("-o,--output", output_, "OUT.obj, or OUT.ply with warp and weft")
+            ->required();
         subdivide_.add_option("--level", level_, "Cuts each edge into 2^level")
             ->check(CLI::Range(0, 8))
             ->capture_default_str();
@@ -44,7 +48,7 @@ class GarmentCommand final : public Command {
   private:
     Status check() const {
         const double metres = garment::metres_per(unit_);
-        garment::PolygonMesh mesh = garment::read_obj(mesh_);
+        garment::PolygonMesh mesh = garment::read_mesh(mesh_).mesh;
         for (glm::dvec3 &p : mesh.position)
             p *= metres;
         const garment::Report report = garment::check(mesh);
@@ -62,10 +66,13 @@ class GarmentCommand final : public Command {
     Status subdivide(Console &console) const {
         const garment::Options options{.metres_per_unit = garment::metres_per(unit_),
                                        .subdivide = {.level = level_}};
+        scene::prepare_output_file(output_, {".obj", ".ply"});
         const garment::LoadedGarment loaded = garment::load(mesh_, options, console.progress());
         console.warnings(loaded.report, mesh_.string());
-        scene::prepare_output_file(output_, {".obj"});
-        garment::write_obj(output_, loaded.surface);
+        if (output_.extension() == ".ply")
+            garment::write_ply(output_, loaded.surface);
+        else
+            garment::write_obj(output_, loaded.surface);
         std::cout << output_.string() << "\n";
         return kDone;
     }
@@ -78,12 +85,31 @@ class GarmentCommand final : public Command {
                   << r.parts << " parts after joining " << r.parts_before << ", "
                   << r.openings.size() << " openings\n  " << size.x << " x " << size.y << " x "
                   << size.z << " m, area " << r.area << " m2\n";
+        print_cloth(r);
         for (const garment::Finding &f : r.findings)
             std::cout << (f.severity == garment::Severity::warning ? "warning " : "note ") << f.key
                       << ": " << f.what << (f.where.empty() ? "" : " (" + f.where + ")")
                       << (f.action.empty() ? "" : "; " + f.action) << "\n";
         if (r.findings.empty())
             std::cout << "nothing is wrong\n";
+    }
+
+    /// What the UVs say: the scale, the shear, and the grain of each panel.
+    static void print_cloth(const garment::Report &r) {
+        if (r.metres_per_uv_warp.p50 == 0)
+            return;
+        const auto line = [](const char *name, const garment::Percentiles &p, double scale,
+                             const char *unit) {
+            std::cout << "  " << name << " " << scale * p.p5 << ", " << scale * p.p50 << ", "
+                      << scale * p.p95 << " " << unit << " (percentiles 5, 50, 95)\n";
+        };
+        line("weft (u):", r.metres_per_uv_weft, 1, "m a unit of UV");
+        line("warp (v):", r.metres_per_uv_warp, 1, "m a unit of UV");
+        line("between warp and weft:", r.warp_weft_angle, degrees_of(1), "degrees");
+        for (const garment::PanelReport &p : r.panel)
+            std::cout << "  panel " << p.name << ": " << p.faces << " faces, " << p.area
+                      << " m2, warp " << std::round(degrees_of(p.warp_to_vertical))
+                      << " degrees from the vertical\n";
     }
 
     CLI::App &app_;

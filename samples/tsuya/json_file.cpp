@@ -14,6 +14,10 @@ Json json_of(const garment::Percentiles &p) {
     return {{"p5", p.p5}, {"p50", p.p50}, {"p95", p.p95}};
 }
 
+Json json_in_degrees(const garment::Percentiles &p) {
+    return {{"p5", degrees_of(p.p5)}, {"p50", degrees_of(p.p50)}, {"p95", degrees_of(p.p95)}};
+}
+
 Json json_of(const garment::ManifoldReport &m) {
     return {{"degenerate_faces", m.degenerate_faces},
             {"duplicate_faces", m.duplicate_faces},
@@ -21,6 +25,7 @@ Json json_of(const garment::ManifoldReport &m) {
             {"non_manifold_vertices", m.non_manifold_vertices},
             {"flipped_faces", m.flipped_faces},
             {"unorientable_edges", m.unorientable_edges},
+            {"detached_faces", m.detached_faces},
             {"isolated_vertices", m.isolated_vertices}};
 }
 
@@ -30,6 +35,8 @@ Json json_of(const garment::SeamReport &s) {
             {"boundary_after", s.boundary_after},
             {"joined", s.joined},
             {"splits", s.splits},
+            {"slits", s.slits},
+            {"collapsed_edges", s.collapsed_edges},
             {"largest_gap", s.largest_gap},
             {"unresolved", s.unresolved}};
 }
@@ -64,6 +71,13 @@ Json json_of(const garment::Report &r) {
     for (const garment::BoundaryLoop &loop : r.openings)
         openings.push_back(
             {{"edges", loop.edges}, {"length", loop.length}, {"centre", json_of(loop.centre)}});
+    Json panels = Json::array();
+    for (const garment::PanelReport &p : r.panel)
+        panels.push_back({{"name", p.name},
+                          {"faces", p.faces},
+                          {"area", p.area},
+                          {"warp", json_of(p.warp)},
+                          {"warp_to_vertical_deg", degrees_of(p.warp_to_vertical)}});
     return {{"schema", "tsuya-garment-check 1"},
             {"vertices", r.vertices},
             {"uvs", r.uvs},
@@ -86,6 +100,8 @@ Json json_of(const garment::Report &r) {
             {"faces_without_uv_area", r.faces_without_uv_area},
             {"metres_per_uv_weft", json_of(r.metres_per_uv_weft)},
             {"metres_per_uv_warp", json_of(r.metres_per_uv_warp)},
+            {"warp_weft_angle_deg", json_in_degrees(r.warp_weft_angle)},
+            {"panel", panels},
             {"lower", json_of(r.lower)},
             {"upper", json_of(r.upper)},
             {"area", r.area},

@@ -152,7 +152,9 @@ TEST(Manifold, CountsWhatItDrops) {
     m.add_face({0, 1, 1}, {-1, -1, -1}, 0);
     m.add_face({2, 3, 1, 0}, {-1, -1, -1, -1}, 0);
     ManifoldReport report;
-    const PolygonMesh fixed = make_manifold(m, report);
+    PositionRecipe recipe;
+    const PolygonMesh fixed = make_manifold(m, report, recipe);
+    EXPECT_EQ(recipe.apply(m.position), fixed.position);
     EXPECT_EQ(fixed.face_count(), 6u);
     EXPECT_EQ(report.degenerate_faces, 1u);
     EXPECT_EQ(report.duplicate_faces, 1u);
@@ -212,6 +214,67 @@ TEST(Check, MeasuresUvScaleUnitsAndMirroring) {
     EXPECT_FALSE(keys(report).contains("unusual_size"));
     PolygonMesh large = panel(4, 4, 30.0);
     EXPECT_TRUE(keys(check(large)).contains("unusual_size"));
+}
+
+TEST(Check, MeasuresShearAndTheGrainOfEachPanel) {
+    PolygonMesh m = both(panel(4, 4, 0.1), panel(4, 4, 0.1, {1, 0, 0}));
+    for (glm::dvec3 &p : m.position)
+        p.x += std::tan(0.3) * p.y; // the warp leans by 0.3
+    for (std::size_t t = 25; t < 50; ++t)
+        m.uv[t] = {m.uv[t].y, -m.uv[t].x}; // v runs along -x
+    const Report report = check(m);
+    EXPECT_NEAR(report.warp_weft_angle.p5, std::numbers::pi / 2 - 0.3, 1e-9);
+    ASSERT_EQ(report.panel.size(), 2u);
+    EXPECT_EQ(report.panel[1].name, "panel1");
+    EXPECT_EQ(report.panel[0].faces, 16u);
+    EXPECT_NEAR(report.panel[0].warp_to_vertical, 0.3, 1e-9);
+    EXPECT_NEAR(report.panel[1].warp_to_vertical, std::numbers::pi / 2, 1e-9);
+    EXPECT_LT(glm::distance(report.panel[1].warp, glm::dvec3(-1, 0, 0)), 1e-9);
+    EXPECT_FALSE(keys(report).contains("strong_shear"));
+    for (glm::dvec3 &p : m.position)
+        p.x += p.y;
+    EXPECT_TRUE(keys(check(m)).contains("strong_shear"));
+}
+
+TEST(Check, ADressInCentimetresOrMillimetresIsNamed) {
+    const auto action = [](double height) {
+        PolygonMesh m = panel(4, 4, 0.25 * height);
+        for (const Finding &f : check(m).findings)
+            if (f.key == "unusual_size")
+                return f.action;
+        return std::string();
+    };
+    EXPECT_EQ(action(1.3), "");
+    EXPECT_NE(action(130).find("in cm"), std::string::npos);
+    EXPECT_NE(action(1300).find("in mm"), std::string::npos);
+    EXPECT_NE(action(13).find("in dm"), std::string::npos);
+}
+
+TEST(Check, EveryFindingSaysWhatIsDone) {
+    PolygonMesh m = test::cube();
+    m.position.emplace_back(5, 5, 5);
+    m.add_face({0, 1, 1}, {-1, -1, -1}, 0);
+    m.add_face({2, 3, 1, 0}, {-1, -1, -1, -1}, 0);
+    m.add_face({0, 1, 8}, {-1, -1, -1}, 0);
+    for (const Finding &f : check(m).findings)
+        EXPECT_NE(f.action, "") << f.key;
+}
+
+TEST(Seams, AShortEdgeDoesNotHoldASlitOpen) {
+    // Above the gap, three triangles join the panels; the middle one has an edge of 0.1 mm.
+    PolygonMesh two = triangulated(both(panel(2, 3, 0.01), panel(2, 3, 0.01, {0.02, 0, 0})));
+    for (std::size_t v = 12; v < two.position.size(); ++v)
+        if (two.position[v].x < 0.0201 && two.position[v].y > 0.015)
+            two.position[v].x += 0.0012;
+    const std::uint32_t left = 10, a = 11, b = 12 + 9, right = 12 + 10, tip = 24;
+    two.position[b] = two.position[a] + glm::dvec3(1e-4, 0, 0);
+    two.position.emplace_back(0.02, 0.04, 0);
+    for (const auto &f : {std::vector<std::uint32_t>{left, a, tip}, {a, b, tip}, {b, right, tip}})
+        two.add_face(f, {-1, -1, -1}, 0);
+    const Report report = check(two);
+    EXPECT_EQ(report.openings.size(), 1u);
+    EXPECT_EQ(report.seams.unresolved, 0u);
+    EXPECT_GT(report.seams.collapsed_edges, 0u);
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/lamp.h"
-#include "tsuya/garment/obj.h"
+#include "tsuya/garment/mesh_file.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
@@ -183,7 +183,7 @@ void SceneReader::read_cloth(const Section &section, MeshEntry &entry) {
 void SceneReader::read_grain(const Section &grain, MeshEntry &entry) {
     // The document knows a key once it was asked for, so the panels' names are asked for.
     note(grain, "", [&] {
-        for (const std::string &panel : garment::read_obj(entry.mesh).panel_name)
+        for (const std::string &panel : garment::read_mesh(entry.mesh).mesh.panel_name)
             if (const auto angle = grain.number(panel, -360, 360))
                 entry.options.frames.grain[panel] = *angle * kDegree;
     });

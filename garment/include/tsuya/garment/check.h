@@ -16,6 +16,7 @@ Report check(const PolygonMesh &metres, const SeamOptions &options = {});
 struct Prepared {
     PolygonMesh mesh{}; ///< manifold, oriented, seams joined
     Report report{};
+    PositionRecipe positions{}; ///< how its positions follow from those of the file
 };
 
 /// Does the repairs: drops faces, cuts what is not manifold, joins the seams, turns faces over.

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "tsuya/garment/frames.h"
+#include "tsuya/garment/mesh_file.h"
 #include "tsuya/garment/report.h"
 #include "tsuya/garment/seams.h"
 #include "tsuya/garment/subdivide.h"
@@ -36,12 +37,13 @@ struct Options {
 struct LoadedGarment {
     Surface surface{};
     Report report{};
+    std::vector<FabricHint> hints{}; ///< what the file's materials say about the cloth
 };
 
 /// Metres of one `unit`: `m`, `dm`, `cm`, `mm`, `in`. Throws Error for another name.
 double metres_per(std::string_view unit);
 
-/// Reads, checks and repairs, joins the seams, subdivides, and adds frames.
+/// Reads (see read_mesh), checks and repairs, joins the seams, subdivides, and adds frames.
 /// Throws Error naming the file (and line:column), and Interrupted where `progress` says stop.
 LoadedGarment load(const std::filesystem::path &path, const Options &options = {},
                    const Progress &progress = {});
@@ -49,6 +51,11 @@ LoadedGarment load(const std::filesystem::path &path, const Options &options = {
 /// The same for a mesh in memory. \param mesh positions in units of the file
 /// \param where names the mesh in errors
 LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
+                   const Progress &progress = {});
+
+/// The same for what read_mesh gave. The warp of panels whose material states anisotropy is laid
+/// along the threads of that hint, unless `options.frames.grain` names the panel.
+LoadedGarment load(const MeshFile &file, const Options &options, const std::string &where,
                    const Progress &progress = {});
 
 } // namespace tsuya::garment

@@ -42,6 +42,18 @@ struct Percentiles {
     double p5 = 0, p50 = 0, p95 = 0;
 };
 
+/// One panel of the garment: a named one, or a UV island where the file names none.
+struct PanelReport {
+    std::string name{};
+    std::size_t faces = 0;
+    double area = 0; ///< square metres of drape
+    /// Mean direction of the warp (+v) in space, unit; 0 where the panel has no UV.
+    glm::dvec3 warp{0.0};
+    /// Between the warp's line and the vertical (+y), radians, 0 to pi/2, mean over the area: small
+    /// for straight grain, about pi/4 for bias, near pi/2 for cross grain.
+    double warp_to_vertical = 0;
+};
+
 /// What joining of the seams did.
 struct SeamReport {
     double tolerance = 0;            ///< metres; what was used
@@ -50,6 +62,7 @@ struct SeamReport {
     std::size_t joined = 0;          ///< vertices that became one with another
     std::size_t splits = 0;          ///< vertices put into a neighbour's edge (T-junctions)
     std::size_t slits = 0;           ///< narrow gaps that were closed beyond the tolerance
+    std::size_t collapsed_edges = 0; ///< shorter than the tolerance, that held a slit open
     double largest_gap = 0;          ///< metres; largest distance that was closed
     FirstPlaces first_place{};
     std::size_t unresolved = 0; ///< boundary vertices left that lie on another boundary edge or
@@ -93,6 +106,8 @@ struct Report {
     std::size_t faces_without_uv_area = 0; ///< have UVs that enclose no area
     Percentiles metres_per_uv_weft{};      ///< |dP/du|
     Percentiles metres_per_uv_warp{};      ///< |dP/dv|
+    Percentiles warp_weft_angle{};         ///< between dP/du and dP/dv, radians; pi/2: no shear
+    std::vector<PanelReport> panel{};      ///< in the order of the panels
     double metres_per_uv = 1.0;            ///< scale that was applied to UVs
     glm::dvec3 lower{0.0}, upper{0.0};     ///< bounding box, metres
     double area = 0;                       ///< of the control faces, square metres

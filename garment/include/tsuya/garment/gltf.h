@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// glTF 2.0 files, `.gltf` and `.glb`.
+
+#include <filesystem>
+#include <string_view>
+
+#include "tsuya/garment/mesh_file.h"
+
+namespace tsuya::garment {
+
+/// Reads the triangles of the scene (all root nodes where there is none), in the world of the
+/// file: y up, metres. Nodes that mirror (negative scale) turn their triangles over. UVs are those
+/// of the base colour texture after KHR_texture_transform, else TEXCOORD_0, with v turned to run
+/// upwards (glTF counts it down), so that UVs that are not mirrored stay so. A panel is one
+/// primitive of one node; vertices of a panel at exactly one place are one vertex. Morph targets
+/// are shapes with one target at full weight. Anisotropy and sheen are read as hints; where the
+/// file has TANGENT, the direction is counted from it, else from +u. Images, skins, cameras, lines
+/// and points are left aside.
+///
+/// Counts are checked against the bytes that the file has before anything is allocated; buffers
+/// may come from the file's own folder alone.
+/// Throws Error naming the file, and the accessor or node.
+MeshFile read_gltf(const std::filesystem::path &path);
+
+/// The same from bytes in memory. \param name stands for the file in errors \param folder may
+/// hold further buffers; empty: no other file is read
+MeshFile parse_gltf(std::string_view bytes, const std::string &name,
+                    const std::filesystem::path &folder = {});
+
+} // namespace tsuya::garment

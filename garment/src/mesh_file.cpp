@@ -1,0 +1,37 @@
+#include "tsuya/garment/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <numbers>
+
+#include "tsuya/garment/gltf.h"
+#include "tsuya/garment/obj.h"
+#include "tsuya/garment/ply.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::garment {
+
+double FabricHint::grain() const { return thread_angle - 0.5 * std::numbers::pi; }
+
+const std::vector<std::string> &mesh_extensions() {
+    static const std::vector<std::string> extensions{".obj", ".gltf", ".glb", ".ply", ".off"};
+    return extensions;
+}
+
+MeshFile read_mesh(const std::filesystem::path &path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".obj")
+        return {.mesh = read_obj(path)};
+    if (extension == ".gltf" || extension == ".glb")
+        return read_gltf(path);
+    if (extension == ".ply")
+        return {.mesh = read_ply(path)};
+    if (extension == ".off")
+        return {.mesh = read_off(path)};
+    throw Error({"'" + extension + "' is not a mesh format that is read", path.string(),
+                 accepted_names(extension, mesh_extensions())});
+}
+
+} // namespace tsuya::garment
