@@ -88,7 +88,8 @@ class Painter {
         up_ = {0, c, s};
         to_lamp_ = glm::normalize(glm::vec3(-0.5f, 0.6f, 1.1f));
         // The middle of the picture is the middle of the part that draft_picture shows
-        centre_ = 0.5f * pixel_ * glm::vec3(settings.width, settings.height, 0);
+        centre_ =
+            0.5f * pixel_ * glm::vec3(settings.width, static_cast<float>(settings.height) / c, 0);
         centre_.z = 0.5f * (scene_.cell().top + scene_.cell().bottom);
     }
     // \param dice four numbers in [0, 1): the place on the lamp and that in the sky
@@ -180,7 +181,8 @@ double width_of_picture(const Weave &weave, const WeavePictureSettings &settings
         return spacing * std::clamp(static_cast<double>(repeat), kFewestCrossings, kMostCrossings);
     };
     return std::max(wanted(weave.draft.ends, weave.warp.spacing()),
-                    wanted(weave.draft.picks, weave.weft.spacing()) * aspect);
+                    wanted(weave.draft.picks, weave.weft.spacing()) * std::cos(settings.tilt) *
+                        aspect);
 }
 
 double scale_bar(const Weave &weave, const WeavePictureSettings &settings) {
@@ -224,7 +226,8 @@ Image draft_picture(const Weave &weave, const WeavePictureSettings &settings) {
     check_weave(weave, weave.name.empty() ? "weave" : weave.name);
     Image image = Image::make(settings.width, settings.height, {"R", "G", "B"});
     const double metre = settings.width / width_of_picture(weave, settings); // in pixels
-    const double x_step = weave.warp.spacing() * metre, y_step = weave.weft.spacing() * metre;
+    const double x_step = weave.warp.spacing() * metre;
+    const double y_step = weave.weft.spacing() * metre * std::cos(settings.tilt);
     const double right = x_step * weave.draft.ends, top = y_step * weave.draft.picks;
     const double line = std::max(0.5, settings.width / 900.0), frame = 2.5 * line;
     for (int row = 0; row < image.height; ++row)

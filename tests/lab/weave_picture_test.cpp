@@ -31,8 +31,8 @@ void each_crossing(const Weave &weave, const WeavePictureSettings &settings, Vis
         if (x >= settings.width)
             return;
         for (int pick = 0;; ++pick) {
-            const auto y =
-                settings.height - 1 - static_cast<int>((pick + 0.5) * weave.weft.spacing() * metre);
+            const double up = (pick + 0.5) * weave.weft.spacing() * metre * std::cos(settings.tilt);
+            const int y = settings.height - 1 - static_cast<int>(up);
             if (y < 0)
                 break;
             visit(end, pick, x, y);
@@ -41,10 +41,12 @@ void each_crossing(const Weave &weave, const WeavePictureSettings &settings, Vis
 }
 
 /// Crossings of the picture that do not show the yarn that `draft` has above.
-int wrong_crossings(const Weave &weave, const Draft &draft) {
-    const Image image = weave_picture(weave, small());
+int wrong_crossings(const Weave &weave, const Draft &draft, double tilt) {
+    WeavePictureSettings settings = small();
+    settings.tilt = tilt;
+    const Image image = weave_picture(weave, settings);
     int wrong = 0;
-    each_crossing(weave, small(), [&](int end, int pick, int x, int y) {
+    each_crossing(weave, settings, [&](int end, int pick, int x, int y) {
         const float *pixel = image.pixel(x, y);
         wrong += (pixel[0] > pixel[1]) != draft.up(end, pick);
     });
@@ -55,22 +57,28 @@ TEST(WeavePicture, ShowsTheYarnThatTheDraftHasAbove) {
     for (const char *name : {"plain", "twill 3/1", "satin 5"}) {
         const Draft draft = parse_draft(name);
         const Weave weave = red_on_green(draft);
-        EXPECT_EQ(wrong_crossings(weave, draft), 0) << name;
+        for (const double tilt : {0.0, 0.5})
+            EXPECT_EQ(wrong_crossings(weave, draft, tilt), 0) << name << ", tilt " << tilt;
         Draft other = draft; // the twill's line falls, the satin steps the other way
         for (int pick = 0; pick < draft.picks; ++pick)
             for (int end = 0; end < draft.ends; ++end)
                 other.warp_up[static_cast<std::size_t>(pick * draft.ends + end)] =
                     draft.up(draft.ends - 1 - end, pick);
-        EXPECT_GT(wrong_crossings(weave, other), 0) << name << ", control";
+        EXPECT_GT(wrong_crossings(weave, other, 0), 0) << name << ", control";
     }
 }
 
 TEST(WeavePicture, LaysItsDraftBesideIt) {
     const Weave weave = red_on_green(parse_draft("satin 8"));
-    const Image paper = draft_picture(weave, small());
-    each_crossing(weave, small(), [&](int end, int pick, int x, int y) {
-        EXPECT_EQ(paper.pixel(x, y)[1] < 0.5f, weave.draft.up(end, pick)) << end << ", " << pick;
-    });
+    for (const double tilt : {0.0, 1.0}) {
+        WeavePictureSettings settings = small();
+        settings.tilt = tilt;
+        const Image paper = draft_picture(weave, settings);
+        each_crossing(weave, settings, [&](int end, int pick, int x, int y) {
+            EXPECT_EQ(paper.pixel(x, y)[1] < 0.5f, weave.draft.up(end, pick))
+                << end << ", " << pick;
+        });
+    }
 }
 
 TEST(WeavePicture, IsInRangeAndDoesNotDependOnTheNumberOfThreads) {

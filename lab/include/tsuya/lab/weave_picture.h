@@ -34,8 +34,8 @@ double width_of_picture(const Weave &weave, const WeavePictureSettings &settings
 Image weave_picture(const Weave &weave, const WeavePictureSettings &settings = {},
                     const Progress &progress = {});
 
-/// The draft as point paper, for the same part of the cloth at the same scale seen from straight
-/// above: a crossing with the warp above is dark, one with the weft above bright, and a frame is
+/// The draft as point paper, as if drawn on the same part of the cloth and seen from the same side:
+/// a crossing with the warp above is dark, one with the weft above bright, and a frame is
 /// around the first repeat. Throws Error: settings out of range, and as check_weave.
 Image draft_picture(const Weave &weave, const WeavePictureSettings &settings = {});
 
