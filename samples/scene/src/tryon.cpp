@@ -28,7 +28,7 @@ constexpr double kAngleOfView = 24 * kDegree; // an 85 mm lens on 36 mm film
 constexpr double kKeyAzimuth = -66 * kDegree; // from the camera to the left
 constexpr double kKeyElevation = 28 * kDegree;
 constexpr double kKeyStrength = 0.8;
-constexpr double kFillRadiance = 0.13;
+constexpr double kFillRadiance = 0.09;
 
 /// A dye with the name that its files bear.
 struct NamedDye {
@@ -76,8 +76,8 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
     scene.rectangles = {make_light(
         {.centre = middle + 1.5 * size * direction_of(azimuth + kKeyAzimuth, kKeyElevation),
          .target = middle,
-         .width = 0.25 * size,
-         .height = 0.5 * size,
+         .width = 0.1 * size, // a larger one would blur the satin's lobe
+         .height = 0.3 * size,
          .strength = kKeyStrength,
          .group = {0}})};
     scene.environment = Environment{.radiance = kFillRadiance, .group = {1}, .visible = true};
