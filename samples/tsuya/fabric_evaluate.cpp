@@ -30,7 +30,8 @@ class EvaluateCommand final : public Command {
                     "reflectance is compared.");
         app_.add_option("fabric", fabric_, "F.fabric.toml")->required();
         app_.add_option("--against", table_, "TABLE.csv of reflectance")->required();
-        app_.add_option("--model", model_, "A model, or all")->capture_default_str();
+        app_.add_option("--model", model_, "A model, or all that the fabric has the data of")
+            ->capture_default_str();
         app_.add_flag("--json", json_, "As JSON");
     }
 
@@ -46,7 +47,8 @@ class EvaluateCommand final : public Command {
         if (model_ == "all") {
             models.clear();
             for (const ModelName &model : model_names())
-                models.emplace_back(model.name);
+                if (has_data_of(std::string(model.name), fabric))
+                    models.emplace_back(model.name);
         }
         std::vector<Result> results;
         for (const std::string &model : models)

@@ -18,58 +18,68 @@ void make_cdf(std::span<const double> weights, float *cdf) {
     cdf[weights.size()] = 1.0f;
 }
 
-struct Draw {
-    int cell;
-    float offset; ///< in [0, 1)
-};
+// The last cell that begins at or below each of `cells` even steps of u.
+void make_guide(const float *cdf, std::size_t cells, std::uint16_t *guide) {
+    std::size_t cell = 0;
+    for (std::size_t i = 0; i < cells; ++i) {
+        const float u = static_cast<float>(i) / static_cast<float>(cells);
+        while (cell + 1 < cells && cdf[cell + 1] <= u)
+            ++cell;
+        guide[i] = static_cast<std::uint16_t>(cell);
+    }
+}
 
-Draw invert(const float *cdf, int cells, float u) {
-    const float *const upper = std::upper_bound(cdf + 1, cdf + cells, u);
-    const auto cell = static_cast<int>(upper - cdf) - 1;
+} // namespace
+
+Distribution2D::Draw Distribution2D::invert(const float *cdf, const std::uint16_t *guide,
+                                            std::size_t cells, float u) {
+    const auto step = static_cast<std::size_t>(u * static_cast<float>(cells));
+    std::size_t cell = guide[std::min(step, cells - 1)];
+    // Rounding may have put u into the step before its own
+    while (cell > 0 && cdf[cell] > u)
+        --cell;
+    while (cell + 1 < cells && cdf[cell + 1] <= u)
+        ++cell;
     const float width = cdf[cell + 1] - cdf[cell];
     const float offset = width > 0 ? (u - cdf[cell]) / width : 0.5f;
     return {cell, std::clamp(offset, 0.0f, 0x1.fffffep-1f)};
 }
 
-} // namespace
-
 Distribution2D::Distribution2D(std::span<const double> weights, int rows, int columns)
-    : rows_(rows), columns_(columns) {
-    const auto r = static_cast<std::size_t>(rows), c = static_cast<std::size_t>(columns);
-    column_cdf_.resize(r * (c + 1));
-    row_cdf_.resize(r + 1);
-    density_.resize(r * c);
-    std::vector<double> row_mass(r);
-    for (std::size_t i = 0; i < r; ++i) {
-        const auto row = weights.subspan(i * c, c);
+    : rows_(static_cast<std::size_t>(rows)), columns_(static_cast<std::size_t>(columns)),
+      row_cdf_(rows_ + 1), column_cdf_(rows_ * (columns_ + 1)), row_guide_(rows_),
+      column_guide_(rows_ * columns_) {
+    std::vector<double> row_mass(rows_);
+    for (std::size_t i = 0; i < rows_; ++i) {
+        const auto row = weights.subspan(i * columns_, columns_);
         row_mass[i] = std::accumulate(row.begin(), row.end(), 0.0);
-        make_cdf(row, &column_cdf_[i * (c + 1)]);
+        float *const cdf = &column_cdf_[i * (columns_ + 1)];
+        make_cdf(row, cdf);
+        make_guide(cdf, columns_, &column_guide_[i * columns_]);
     }
     make_cdf(row_mass, row_cdf_.data());
-    // The density that `sample` really has: from the rounded cumulative sums
-    for (std::size_t i = 0; i < r; ++i)
-        for (std::size_t j = 0; j < c; ++j) {
-            const float *const cdf = &column_cdf_[i * (c + 1)];
-            density_[i * c + j] =
-                (row_cdf_[i + 1] - row_cdf_[i]) * (cdf[j + 1] - cdf[j]) * static_cast<float>(r * c);
-        }
+    make_guide(row_cdf_.data(), rows_, row_guide_.data());
 }
 
 Distribution2D::Sample Distribution2D::sample(glm::vec2 u) const {
-    const Draw row = invert(row_cdf_.data(), rows_, u.y);
-    const auto r = static_cast<std::size_t>(row.cell), c = static_cast<std::size_t>(columns_);
-    const Draw column = invert(&column_cdf_[r * (c + 1)], columns_, u.x);
+    const Draw row = invert(row_cdf_.data(), row_guide_.data(), rows_, u.y);
+    const float *const cdf = &column_cdf_[row.cell * (columns_ + 1)];
+    const Draw column = invert(cdf, &column_guide_[row.cell * columns_], columns_, u.x);
     return {{(static_cast<float>(column.cell) + column.offset) / static_cast<float>(columns_),
              (static_cast<float>(row.cell) + row.offset) / static_cast<float>(rows_)},
-            density_[r * c + static_cast<std::size_t>(column.cell)]};
+            (row_cdf_[row.cell + 1] - row_cdf_[row.cell]) *
+                (cdf[column.cell + 1] - cdf[column.cell]) * static_cast<float>(rows_ * columns_)};
 }
 
 float Distribution2D::density(glm::vec2 point) const {
-    const int row = std::clamp(static_cast<int>(point.y * static_cast<float>(rows_)), 0, rows_ - 1);
-    const int column =
-        std::clamp(static_cast<int>(point.x * static_cast<float>(columns_)), 0, columns_ - 1);
-    return density_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                    static_cast<std::size_t>(column)];
+    const auto cell = [](float x, std::size_t cells) {
+        const auto at = static_cast<int>(x * static_cast<float>(cells));
+        return static_cast<std::size_t>(std::clamp(at, 0, static_cast<int>(cells) - 1));
+    };
+    const std::size_t row = cell(point.y, rows_), column = cell(point.x, columns_);
+    const float *const cdf = &column_cdf_[row * (columns_ + 1) + column];
+    return (row_cdf_[row + 1] - row_cdf_[row]) * (cdf[1] - cdf[0]) *
+           static_cast<float>(rows_ * columns_);
 }
 
 } // namespace tsuya

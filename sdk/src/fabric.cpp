@@ -8,6 +8,7 @@
 #include "tsuya/sdk/document.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
+#include "tsuya/sdk/model.h"
 
 namespace tsuya {
 namespace {
@@ -97,6 +98,33 @@ std::string quoted(const std::string &text) {
     return result + '"';
 }
 
+// The model, and what it is made of but the views.
+void read_model(const Section &root, const std::filesystem::path &file, Fabric &fabric) {
+    if (const auto model = root.text("model")) {
+        fabric.model = *model;
+        try {
+            check_model_name(*model, root.where("model"));
+        } catch (const Error &error) {
+            root.problem("model", error.problems()[0].what, error.problems()[0].accepted);
+        }
+    }
+    if (const auto section = root.section("ggx")) {
+        GgxFacets facets;
+        facets.alpha_weft = section->required_number("alpha_weft", 1e-4, 1);
+        facets.alpha_warp = section->required_number("alpha_warp", 1e-4, 1);
+        facets.f0 = section->number("f0", 1e-6, 1).value_or(facets.f0);
+        facets.refractive_index = section->number("refractive_index", 1.001, 10);
+        if (section->has("f0") && facets.refractive_index)
+            section->problem("refractive_index", "both f0 and refractive_index are given",
+                             "expected one of them");
+        fabric.ggx = facets;
+    }
+    if (const auto table = root.text("table")) {
+        fabric.table_file = *table;
+        fabric.table = read_reflectance_table(file.parent_path() / *table);
+    }
+}
+
 } // namespace
 
 bool Material::has_diffuse() const {
@@ -121,9 +149,9 @@ Material resolve(const Fabric &fabric, const std::string &where) {
     check_spectrum(fabric.dye, 0, 1, where + ".dye");
     check_spectrum(fabric.specular_tint, 0, 1, where + ".specular_tint");
     Material material{.specular_tint = fabric.specular_tint, .dye = fabric.dye};
-    if (!fabric.bard || fabric.bard->peak() == 0)
-        return material;
-    material.specular = TakedaBrdf(*fabric.bard, f0_of(fabric, where));
+    check_model_name(fabric.model, where + ".model");
+    if (has_data_of(fabric.model, fabric))
+        material.specular = make_brdf(fabric.model, fabric, where);
     return material;
 }
 
@@ -140,6 +168,7 @@ Fabric read_fabric(const std::filesystem::path &file) {
     if (const auto keys = root.section("provenance"))
         for (auto &[key, value] : keys->all_texts())
             fabric.keys[key] = value;
+    read_model(root, file, fabric);
     const auto table = read_views(root, read_symmetry(root));
     std::optional<BardSmoothness> smoothness;
     if (const auto section = root.section("smoothness"))
@@ -161,14 +190,26 @@ void write_fabric(const Fabric &fabric, const std::filesystem::path &file) {
     out << "schema = \"" << kSchema << "\"\nname = " << quoted(fabric.name) << "\n";
     if (fabric.bard)
         out << "symmetry = \"" << name_of(fabric.bard->symmetry()) << "\"\n";
+    if (fabric.model != Fabric{}.model)
+        out << "model = " << quoted(fabric.model) << "\n";
     if (fabric.f0)
         out << "f0 = " << *fabric.f0 << "\n";
+    if (!fabric.table_file.empty())
+        out << "table = " << quoted(fabric.table_file) << "\n";
     if (!fabric.keys.empty())
         out << "\n[provenance]\n";
     for (const auto &[key, value] : fabric.keys)
         out << quoted(key) << " = " << quoted(value) << "\n";
     write_spectrum(out, "dye", fabric.dye);
     write_spectrum(out, "specular_tint", fabric.specular_tint);
+    if (fabric.ggx) {
+        out << "\n[ggx]\nalpha_weft = " << fabric.ggx->alpha_weft
+            << "\nalpha_warp = " << fabric.ggx->alpha_warp;
+        if (fabric.ggx->refractive_index)
+            out << "\nrefractive_index = " << *fabric.ggx->refractive_index << "\n";
+        else
+            out << "\nf0 = " << fabric.ggx->f0 << "\n";
+    }
     if (fabric.bard) {
         const BardSmoothness &s = fabric.bard->smoothness();
         out << "\n[smoothness]\nweft_support = " << s.weft_support

@@ -135,6 +135,14 @@ std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings) {
         h.spectrum(f.dye);
         h.spectrum(f.specular_tint);
         h.value(f.f0.value_or(0));
+        h.bytes(f.model.data(), f.model.size());
+        if (f.ggx)
+            for (const double v : {f.ggx->alpha_weft, f.ggx->alpha_warp, f.ggx->f0,
+                                   f.ggx->refractive_index.value_or(0)})
+                h.value(v);
+        if (f.table)
+            for (const ReflectanceRow &row : f.table->rows)
+                h.value(row);
         if (f.bard)
             for (const BardView &v : f.bard->views())
                 h.value(v);

@@ -42,15 +42,17 @@ float facets(const Bard &bard, float f0, const glm::vec2 &horizontal) {
     return last * std::exp(-held * (tilt - kQuarterTurn));
 }
 
-// The horizontal part of H, with N.H; and the square root of 2 (1 + L.V), which is |L + V|.
+// The horizontal part of H, with N.H; and |L + V|, which is twice V.H. From the sum itself: 1 + L.V
+// cancels where light and view are opposite at grazing.
 struct Half {
     glm::vec2 horizontal;
     float z, length;
 
-    Half(const glm::vec3 &l, const glm::vec3 &v)
-        : length(std::sqrt(std::max(2 * (1 + glm::dot(l, v)), kSmallest))) {
-        horizontal = (glm::vec2(l) + glm::vec2(v)) / length;
-        z = std::min((l.z + v.z) / length, 1.0f);
+    Half(const glm::vec3 &l, const glm::vec3 &v) {
+        const glm::vec3 sum = l + v;
+        length = std::sqrt(std::max(glm::dot(sum, sum), kSmallest));
+        horizontal = glm::vec2(sum) / length;
+        z = sum.z / length;
     }
 };
 
@@ -60,7 +62,7 @@ struct HalfVectorBrdf::Terms : FacetTerms {
     float pdf_per_sr; // of either direction for the other
 };
 
-HalfVectorBrdf::HalfVectorBrdf(const Bard &bard, double f0) : f0_(static_cast<float>(f0)) {
+HalfVectorBrdf::HalfVectorBrdf(const Bard &bard, double f0) : f0_(checked_f0(f0)) {
     const bool orthotropic = bard.symmetry() == Symmetry::orthotropic;
     // The table's own disk has another radius: its directions only carry the point
     facets_ = DiskTable(
@@ -87,11 +89,8 @@ void HalfVectorBrdf::tabulate_density() {
 
 void HalfVectorBrdf::tabulate_albedos(Symmetry symmetry) {
     const auto albedo = [&](const glm::vec3 &to_viewer) {
-        double sum = 0;
-        for (int i = 0; i < kAlbedoSamples; ++i)
-            if (const auto s = sample(to_viewer, quadrature_point(i)))
-                sum += s->weight;
-        return static_cast<float>(sum / kAlbedoSamples);
+        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
+                           kAlbedoSamples);
     };
     // limited_below_ is 0 still: this is the albedo before the limit
     unlimited_ = AlbedoTable(symmetry, albedo);

@@ -10,7 +10,7 @@ constexpr float kInversePi = 0.318309886f;
 }
 
 float LambertBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return to_light.z > 0 && to_viewer.z > 0 ? kInversePi : 0.0f;
+    return to_light.z > 0 && to_viewer.z > 0 ? albedo_ * kInversePi : 0.0f;
 }
 
 float LambertBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
@@ -25,7 +25,7 @@ std::optional<SampledDirection> LambertBrdf::sample(const glm::vec3 &to_viewer,
     const float z = std::sqrt(1.0f - glm::dot(p, p));
     if (!(z > 0))
         return std::nullopt;
-    return SampledDirection{{p.x, p.y, z}, 1.0f, z * kInversePi};
+    return SampledDirection{{p.x, p.y, z}, albedo_, z * kInversePi};
 }
 
 std::optional<SampledDirection> LambertBrdf::sample_adjoint(const glm::vec3 &to_light,
@@ -34,20 +34,19 @@ std::optional<SampledDirection> LambertBrdf::sample_adjoint(const glm::vec3 &to_
 }
 
 float LambertBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return evaluate_cos(to_light, to_viewer);
+    return to_light.z > 0 && to_viewer.z > 0 ? kInversePi * to_light.z : 0.0f;
 }
 
 WeighedLight LambertBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const float f_cos = evaluate_cos(to_light, to_viewer);
-    return {f_cos, f_cos};
+    return {evaluate_cos(to_light, to_viewer), pdf(to_light, to_viewer)};
 }
 
 float LambertBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return evaluate_cos(to_viewer, to_light);
+    return pdf(to_viewer, to_light);
 }
 
 float LambertBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? 1.0f : 0.0f;
+    return to_light.z > 0 ? albedo_ : 0.0f;
 }
 
 float LambertBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {

@@ -13,17 +13,14 @@ namespace {
 
 constexpr int kQuadratureCells = 96;
 
-constexpr std::array<ModelName, 3> kModels = {{
+constexpr std::array<ModelName, 6> kModels = {{
     {"takeda", "great-circle model through a few measured views"},
+    {"takeda_printed", "the same with the map as it is printed, to reproduce the paper"},
     {"half_vector", "microfacets whose distribution is read off the measured views; reciprocal"},
+    {"ggx", "anisotropic GGX facets, given or fitted to the measured views; reciprocal"},
     {"lambert", "ideal diffuser"},
+    {"tabulated", "every light and view from a table; no prediction"},
 }};
-
-template <BrdfModel Model> BrdfFunction function_of(Model model) {
-    return [model = std::move(model)](const glm::dvec3 &to_light, const glm::dvec3 &to_viewer) {
-        return static_cast<double>(model.evaluate(glm::vec3(to_light), glm::vec3(to_viewer)));
-    };
-}
 
 // The share of light from straight above that is reflected.
 double albedo_of(const Bard &bard) {
@@ -41,22 +38,55 @@ double albedo_of(const Bard &bard) {
 
 std::span<const ModelName> model_names() { return kModels; }
 
-BrdfFunction make_model(const std::string &name, const Fabric &fabric, const std::string &where) {
+void check_model_name(const std::string &name, const std::string &where) {
     std::vector<std::string> known;
     for (const ModelName &model : kModels)
         known.emplace_back(model.name);
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw Error({"unknown model '" + name + "'", where, accepted_names(name, known)});
-    if (!fabric.bard || !(fabric.bard->peak() > 0))
+}
+
+bool has_data_of(const std::string &model, const Fabric &fabric) {
+    const bool views = fabric.bard && fabric.bard->peak() > 0;
+    if (model == "tabulated")
+        return fabric.table.has_value();
+    return views || (model == "ggx" && fabric.ggx);
+}
+
+Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string &where) {
+    check_model_name(name, where);
+    if (!has_data_of(name, fabric)) {
+        if (name == "tabulated")
+            throw Error({"the fabric has no table of lights and views", where + ".table",
+                         "expected a TABLE.csv with light from several directions"});
         throw Error({"the fabric has no measured views with a value above 0", where + ".views",
                      "expected views at normal incidence"});
+    }
+    if (name == "tabulated")
+        return TabulatedBrdf(*fabric.table, where + ".table");
+    if (name == "ggx") {
+        const GgxFacets facets = fabric.ggx ? *fabric.ggx : fit_ggx(*fabric.bard);
+        check_ggx(facets, where + ".ggx");
+        return GgxBrdf(facets);
+    }
     if (name == "lambert")
-        return [value = albedo_of(*fabric.bard) /
-                        std::numbers::pi](const glm::dvec3 &, const glm::dvec3 &) { return value; };
+        return LambertBrdf(static_cast<float>(std::min(1.0, albedo_of(*fabric.bard))));
     const double f0 = f0_of(fabric, where);
     if (name == "half_vector")
-        return function_of(HalfVectorBrdf(*fabric.bard, f0));
-    return function_of(TakedaBrdf(*fabric.bard, f0));
+        return HalfVectorBrdf(*fabric.bard, f0);
+    if (name == "takeda_printed")
+        return TakedaPrintedBrdf(*fabric.bard, f0);
+    return TakedaBrdf(*fabric.bard, f0);
+}
+
+BrdfFunction make_model(const std::string &name, const Fabric &fabric, const std::string &where) {
+    return std::visit(
+        [](auto model) -> BrdfFunction {
+            return [model = std::move(model)](const glm::dvec3 &l, const glm::dvec3 &v) {
+                return static_cast<double>(model.evaluate(glm::vec3(l), glm::vec3(v)));
+            };
+        },
+        make_brdf(name, fabric, where));
 }
 
 } // namespace tsuya

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tsuya/sdk/model.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya {
@@ -28,7 +29,7 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
         if (skip(!used[i], "fabric '" + fabric.name + "' dresses nothing", "its tables"))
             continue;
         const bool specular =
-            fabric.bard && fabric.bard->peak() > 0 && any_above_zero(fabric.specular_tint);
+            has_data_of(fabric.model, fabric) && any_above_zero(fabric.specular_tint);
         const bool diffuse = any_above_zero(fabric.dye);
         skip(!specular, "no specular part in fabric '" + fabric.name + "'",
              "its evaluation at every point");

@@ -189,6 +189,54 @@ ReflectanceTable ReflectanceTable::normal_incidence() const {
     return result;
 }
 
+void check_table(const ReflectanceTable &table, const std::string &where) {
+    constexpr double kFactor = 2, kSigmas = 5, kSame = 1e-9;
+    std::vector<Problem> problems;
+    const auto row_name = [](const ReflectanceRow &r) {
+        const auto degrees = [](double angle) { return number_text(angle / kDegree, 6); };
+        return "light (" + degrees(r.theta_i) + ", " + degrees(r.phi_i) + ") view (" +
+               degrees(r.theta_r) + ", " + degrees(r.phi_r) + ") degrees";
+    };
+    const auto refuse = [&](const ReflectanceRow &r, const std::string &what,
+                            const char *accepted) {
+        if (problems.size() < kMaxProblems)
+            problems.push_back({row_name(r) + ": " + what, where, accepted});
+    };
+    const double horizon = 0.5 * std::numbers::pi + kSame;
+    std::vector<ReflectanceRow> sorted = table.rows;
+    for (const ReflectanceRow &r : sorted) {
+        if (!(std::isfinite(r.brdf_per_sr) && r.brdf_per_sr >= 0 && r.sigma_per_sr >= 0))
+            refuse(r, "the value is " + number_text(r.brdf_per_sr, 6),
+                   "expected a finite number not below 0");
+        if (!(r.theta_i >= 0 && r.theta_i <= horizon && r.theta_r >= 0 && r.theta_r <= horizon &&
+              std::isfinite(r.phi_i) && std::isfinite(r.phi_r)))
+            refuse(r, "the direction is not above the cloth",
+                   "expected angles from the normal of 0 to 90 degrees");
+    }
+    if (!problems.empty())
+        throw Error(std::move(problems));
+    const auto key = [](const ReflectanceRow &r) {
+        const auto rounded = [](double angle) { return std::lround(angle / 1e-6); };
+        return std::array{rounded(r.theta_i), r.theta_i > kSame ? rounded(r.phi_i) : 0,
+                          rounded(r.theta_r), r.theta_r > kSame ? rounded(r.phi_r) : 0};
+    };
+    std::sort(sorted.begin(), sorted.end(),
+              [&](const auto &a, const auto &b) { return key(a) < key(b); });
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+        const ReflectanceRow &a = sorted[i - 1], &b = sorted[i];
+        const double high = std::max(a.brdf_per_sr, b.brdf_per_sr);
+        const double low = std::min(a.brdf_per_sr, b.brdf_per_sr);
+        if (key(a) == key(b) && high > kFactor * low &&
+            high - low > kSigmas * std::hypot(a.sigma_per_sr, b.sigma_per_sr))
+            refuse(a,
+                   "measured twice, " + number_text(a.brdf_per_sr, 6) + " and " +
+                       number_text(b.brdf_per_sr, 6),
+                   "expected repeats within a factor of 2, or a sigma_per_sr that explains them");
+    }
+    if (!problems.empty())
+        throw Error(std::move(problems));
+}
+
 ReflectanceTable read_reflectance_table(const std::filesystem::path &file) {
     return TableReader(file).read();
 }

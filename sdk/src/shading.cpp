@@ -32,7 +32,9 @@ Shading::Shading(const Material &material, float dye_mean, float tint_mean, bool
 }
 
 float Shading::albedo(const glm::vec3 &direction) const {
-    return std::visit([&](const auto &m) { return m.albedo_of_light(direction); }, *specular_);
+    // Of models that are not limited in energy it may exceed 1
+    return std::min(
+        1.0f, std::visit([&](const auto &m) { return m.albedo_of_light(direction); }, *specular_));
 }
 
 ViewTerms Shading::view_terms(const glm::vec3 &to_viewer) const {

@@ -1,61 +1,83 @@
 #include "tsuya/sdk/takeda.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
 #include "disk.h"
 #include "facets.h"
+#include "takeda_kernel.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f;
+constexpr float kPi = 3.14159265f, kHalfPi = 0.5f * kPi;
 constexpr int kTableNodes = 161;     // quadrant; 0.5 degrees at the pole
-constexpr int kFullTableNodes = 241; // whole square
+constexpr int kFullTableNodes = 181; // whole square; 0.9 degrees
 constexpr int kDensityCells = 96;
-constexpr int kAlbedoSamples = 1024;
-constexpr float kSmallest = 1e-20f;
+constexpr int kPartsOfCell = 4;         // along it, where its mass is summed
+constexpr float kEvenShare = 0.01f;     // of a density: keeps it above 0 where rho0 is not
+constexpr float kHalfShare = 0.9f;      // of the lights, drawn by H; the rest is even
+constexpr float kTail = 12 * kPi / 180; // facets beyond 45 degrees fall to 1/e within this tilt
+constexpr float kDiskOfSquare = 0.25f;  // area of the unit square for an area of the disk
+constexpr float kEvenDensity = 0.5f / kPi;
+
+// Masses of the cells of the square about the unit disk; what lies outside the disk has none.
+template <class Mass> Distribution2D tabulate_on_disk(const Mass &mass_at) {
+    std::vector<double> mass(static_cast<std::size_t>(kDensityCells * kDensityCells)), area = mass;
+    constexpr int kParts = kDensityCells * kPartsOfCell;
+    double total = 0, inside = 0;
+    for (int j = 0; j < kParts; ++j)
+        for (int i = 0; i < kParts; ++i) {
+            const glm::vec2 p = (glm::vec2(i, j) + 0.5f) * (2.0f / kParts) - 1.0f;
+            if (glm::dot(p, p) >= 1)
+                continue;
+            const auto cell =
+                static_cast<std::size_t>(j / kPartsOfCell * kDensityCells + i / kPartsOfCell);
+            const double m = mass_at(p);
+            mass[cell] += m;
+            area[cell] += 1;
+            total += m;
+            inside += 1;
+        }
+    for (std::size_t i = 0; i < mass.size(); ++i)
+        mass[i] += kEvenShare * (total > 0 ? total : 1.0) * area[i] / inside;
+    return {mass, kDensityCells, kDensityCells};
+}
+
+glm::vec2 square_about(const glm::vec2 &p) { return 0.5f * (p + 1.0f); }
 
 } // namespace
 
-struct TakedaBrdf::Terms : FacetTerms {};
-
 TakedaBrdf::TakedaBrdf(const Bard &bard, double f0)
-    : f0_(static_cast<float>(f0)), half_turn_(bard.symmetry() != Symmetry::none) {
+    : f0_(checked_f0(f0)), half_turn_(bard.symmetry() != Symmetry::none) {
     const bool orthotropic = bard.symmetry() == Symmetry::orthotropic;
-    const int nodes = orthotropic ? kTableNodes : kFullTableNodes;
-    scaled_ = DiskTable(nodes, orthotropic, [&](const glm::vec3 &d) {
-        const float half_cosine = std::sqrt(0.5f * (1 + d.z));
-        return static_cast<float>(bard.at(d)) * std::max(d.z, 0.5f) / fresnel(f0_, half_cosine);
-    });
-
-    std::vector<double> mass(static_cast<std::size_t>(kDensityCells * kDensityCells));
-    double total = 0;
-    for (int j = 0; j < kDensityCells; ++j)
-        for (int i = 0; i < kDensityCells; ++i) {
-            const glm::vec2 u = (glm::vec2(i, j) + 0.5f) / static_cast<float>(kDensityCells);
-            const glm::vec3 d = direction_of_disk(disk_of_square(u));
-            const double m = scaled_.at(d) * fresnel(f0_, std::sqrt(0.5f * (1 + d.z))) * d.z /
-                             std::max(d.z, 0.5f);
-            mass[static_cast<std::size_t>(j * kDensityCells + i)] = m;
-            total += m;
-        }
-    // A small even share keeps the density above 0 where rho0 is not
-    for (double &m : mass)
-        m += 0.01 * total / static_cast<double>(mass.size());
-    density_ = Distribution2D(mass, kDensityCells, kDensityCells);
+    scaled_ = scaled_bard(bard, f0_, orthotropic ? kTableNodes : kFullTableNodes);
+    tabulate_densities();
     tabulate_albedos(bard.symmetry());
 }
 
+void TakedaBrdf::tabulate_densities() {
+    basics_ = tabulate_on_disk([&](const glm::vec2 &p) {
+        const float z = 1 - glm::dot(p, p);
+        return scaled_.at_disk(p.x, p.y) * fresnel(f0_, std::sqrt(0.5f * (1 + z))) * z /
+               std::max(z, 0.5f);
+    });
+    // For the facet that mirrors the view into the light V0 lies between two tilts: twice the
+    // facet's, under light from straight above, and theta_i a/(a + theta_i), for the view from
+    // straight above. The geometric mean of both draws evenly well from all sides.
+    halves_ = tabulate_on_disk([&](const glm::vec2 &p) {
+        const float sine = glm::length(p), tilt = std::asin(sine), turned = 2 * tilt;
+        const float theta =
+            std::sqrt(std::min(turned, kHalfPi) * kHalfPi * turned / (kHalfPi + turned));
+        const glm::vec2 disk = p * (1.41421356f * std::sin(0.5f * theta) / std::max(sine, 1e-9f));
+        return scaled_.at_disk(disk.x, disk.y) * fresnel(f0_, std::cos(tilt)) *
+               std::exp(-std::max(0.0f, tilt - 0.5f * kHalfPi) / kTail);
+    });
+}
+
 void TakedaBrdf::tabulate_albedos(Symmetry symmetry) {
-    const auto mean_weight = [](const auto &draw) {
-        double sum = 0;
-        for (int i = 0; i < kAlbedoSamples; ++i)
-            if (const auto s = draw(quadrature_point(i)))
-                sum += s->weight;
-        return static_cast<float>(sum / kAlbedoSamples);
-    };
     // limited_below_ is 0 still: this is the albedo before the limit
     light_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_light) {
         return mean_weight([&](const glm::vec3 &u) { return sample_adjoint(to_light, u); });
@@ -67,41 +89,83 @@ void TakedaBrdf::tabulate_albedos(Symmetry symmetry) {
     });
 }
 
+std::size_t TakedaBrdf::table_bytes() const {
+    return scaled_.bytes() + basics_.bytes() + halves_.bytes() + light_albedo_.bytes() +
+           view_albedo_.bytes();
+}
+
 float TakedaBrdf::limit(const glm::vec3 &to_light) const {
     return to_light.z < limited_below_ ? 1 / std::max(1.0f, light_albedo_.at(to_light)) : 1.0f;
 }
 
-TakedaBrdf::Terms TakedaBrdf::terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
-                                    const glm::vec3 &basic) const {
-    const float sum = std::max(1 + glm::dot(to_light, to_viewer), kSmallest);
-    const float light_half = std::sqrt(std::min(0.5f * sum, 1.0f)); // L.H
-    return {{scaled_.at(basic) * fresnel(f0_, light_half) * limit(to_light),
-             2 * (to_light.z + to_viewer.z) / sum}};
-}
-
 float TakedaBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const float ci = to_light.z, cr = to_viewer.z;
-    if (!(ci > 0 && cr > 0))
-        return 0;
-    return terms(to_light, to_viewer, to_basic(to_light, to_viewer).basic).per_sr(ci, cr);
+    return evaluate_cos(to_light, to_viewer) / std::max(to_light.z, 1e-18f);
 }
 
 float TakedaBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     if (!(to_light.z > 0 && to_viewer.z > 0))
         return 0;
-    return terms(to_light, to_viewer, to_basic(to_light, to_viewer).basic)
-        .cos(to_light.z, to_viewer.z);
+    return kernel::evaluate(scaled_, f0_, to_light, to_viewer).f_cos * limit(to_light);
 }
 
-float TakedaBrdf::density_of_basic(const glm::vec3 &basic) const {
-    return density_.density(square_of_disk(disk_of_direction(basic))) / (2 * kPi);
+void TakedaBrdf::evaluate_cos(std::span<const glm::vec3> to_light,
+                              std::span<const glm::vec3> to_viewer, std::span<float> f_cos) const {
+    assert(to_light.size() == f_cos.size() && to_viewer.size() == f_cos.size());
+    kernel::evaluate(scaled_, f0_, to_light.data(), to_viewer.data(), f_cos.data(), f_cos.size());
+    if (limited_below_ > 0)
+        for (std::size_t i = 0; i < f_cos.size(); ++i)
+            if (to_light[i].z < limited_below_)
+                f_cos[i] *= limit(to_light[i]);
+}
+
+WeighedLight TakedaBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    if (!(to_light.z > 0 && to_viewer.z > 0))
+        return {};
+    const kernel::Evaluated pair = kernel::evaluate(scaled_, f0_, to_light, to_viewer);
+    // dH/dL = 1 / (4 V.H); the disk of the horizontal part of H has the area element N.H dH
+    const float of_half = halves_.density(square_about({pair.half_x, pair.half_y})) *
+                          (kDiskOfSquare * 0.125f) * pair.k;
+    return {pair.f_cos * limit(to_light), kHalfShare * of_half + (1 - kHalfShare) * kEvenDensity};
+}
+
+float TakedaBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return weigh(to_light, to_viewer).pdf_per_sr;
+}
+
+// Most lights by the facet that mirrors the view into them; what lies below the horizon is a null
+// sample.
+std::optional<SampledDirection> TakedaBrdf::sample(const glm::vec3 &to_viewer,
+                                                   const glm::vec3 &u) const {
+    if (!(to_viewer.z > 0))
+        return std::nullopt;
+    glm::vec3 to_light;
+    if (u.z < kHalfShare) {
+        const glm::vec2 p = 2.0f * halves_.sample({u.x, u.y}).point - 1.0f;
+        const float z2 = 1 - glm::dot(p, p);
+        if (!(z2 > 0))
+            return std::nullopt;
+        const glm::vec3 half(p, std::sqrt(z2));
+        const float facing = glm::dot(to_viewer, half);
+        to_light = 2 * facing * half - to_viewer;
+        if (!(facing > 0))
+            return std::nullopt;
+    } else {
+        to_light = direction_of_disk(disk_of_square({u.x, u.y}));
+    }
+    if (!(to_light.z > 0))
+        return std::nullopt;
+    const WeighedLight light = weigh(to_light, to_viewer);
+    return SampledDirection{to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr};
 }
 
 // Where rho0 repeats after half a turn, V0 is turned to R's side with probability 1/2 - theta_i/pi:
 // the density of the view then has no jump by the slope of the map.
 std::optional<glm::vec3> TakedaBrdf::draw_view(const glm::vec3 &to_light,
                                                const glm::vec3 &u) const {
-    glm::vec3 basic = direction_of_disk(disk_of_square(density_.sample({u.x, u.y}).point));
+    const glm::vec2 p = 2.0f * basics_.sample({u.x, u.y}).point - 1.0f;
+    if (!(glm::dot(p, p) < 1))
+        return std::nullopt;
+    glm::vec3 basic = direction_of_disk(p);
     if (half_turn_) {
         const float tilt = angle_of(glm::length(glm::vec2(to_light)), to_light.z);
         const bool wants_away = u.z < 0.5f - tilt / kPi;
@@ -113,51 +177,15 @@ std::optional<glm::vec3> TakedaBrdf::draw_view(const glm::vec3 &to_light,
     return to_viewer.z > 0 ? std::optional(to_viewer) : std::nullopt;
 }
 
+// The disk of V0 has an area of 1/2 for a steradian.
 float TakedaBrdf::density_of_view(const GreatCircle &c) const {
-    return density_of_basic(c.basic) * c.sine_ratio * (half_turn_ ? 1.0f : c.slope);
-}
-
-float TakedaBrdf::density_of_light(const GreatCircle &c, const glm::vec3 &to_light,
-                                   const glm::vec3 &to_viewer) const {
-    return density_of_basic(c.basic) * jacobian_of_light(c, to_light, to_viewer);
-}
-
-float TakedaBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return weigh(to_light, to_viewer).pdf_per_sr;
-}
-
-// Half of the lights come from V0 and the inverse map; half from the map with view and light
-// swapped, whose support is the whole hemisphere.
-WeighedLight TakedaBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return {};
-    const GreatCircle circle = to_basic(to_light, to_viewer);
-    const float swapped = density_of_view(to_basic(to_viewer, to_light));
-    return {terms(to_light, to_viewer, circle.basic).cos(to_light.z, to_viewer.z),
-            0.5f * (density_of_light(circle, to_light, to_viewer) + swapped)};
+    return basics_.density(square_about(disk_of_direction(c.basic))) * (0.5f * kDiskOfSquare) *
+           c.sine_ratio * (half_turn_ ? 1.0f : c.slope);
 }
 
 float TakedaBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     return to_light.z > 0 && to_viewer.z > 0 ? density_of_view(to_basic(to_light, to_viewer))
                                              : 0.0f;
-}
-
-std::optional<SampledDirection> TakedaBrdf::sample(const glm::vec3 &to_viewer,
-                                                   const glm::vec3 &u) const {
-    if (!(to_viewer.z > 0))
-        return std::nullopt;
-    std::optional<glm::vec3> to_light;
-    if (u.z < 0.5f)
-        to_light = light_of_basic(
-            to_viewer, direction_of_disk(disk_of_square(density_.sample({u.x, u.y}).point)));
-    else
-        to_light = draw_view(to_viewer, {u.x, u.y, 2 * u.z - 1});
-    if (!to_light)
-        return std::nullopt;
-    const WeighedLight light = weigh(*to_light, to_viewer);
-    if (!(light.pdf_per_sr > 0))
-        return std::nullopt;
-    return SampledDirection{*to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr};
 }
 
 std::optional<SampledDirection> TakedaBrdf::sample_adjoint(const glm::vec3 &to_light,
@@ -167,12 +195,11 @@ std::optional<SampledDirection> TakedaBrdf::sample_adjoint(const glm::vec3 &to_l
     const std::optional<glm::vec3> to_viewer = draw_view(to_light, u);
     if (!to_viewer)
         return std::nullopt;
-    const GreatCircle circle = to_basic(to_light, *to_viewer);
-    const float density = density_of_view(circle);
+    const float density = density_of_view(to_basic(to_light, *to_viewer));
     if (!(density > 0))
         return std::nullopt;
-    const Terms t = terms(to_light, *to_viewer, circle.basic);
-    return SampledDirection{*to_viewer, t.cos(to_viewer->z, to_light.z) / density, density};
+    return SampledDirection{*to_viewer, evaluate(to_light, *to_viewer) * to_viewer->z / density,
+                            density};
 }
 
 float TakedaBrdf::albedo_of_light(const glm::vec3 &to_light) const {

@@ -25,24 +25,58 @@ struct Instance {
     std::function<Brdf()> make;
     // How well the tables of albedos must agree with quadrature; the view's at grazing are worse
     double light_tolerance = 0.02, view_tolerance = 0.05;
+    // Densities with wide steps at grazing need more of the quadrature, or are left to the run with
+    // more effort
+    int evaluations = 80000;
+    double to_deg = 89.9;
+    int energy_evaluations = 30000;
 };
 
-Instance takeda(const char *name, Cloth (*cloth)(), double f0, double light_tolerance = 0.02) {
-    return {name, [=] { return Brdf(TakedaBrdf(bard_of(cloth()), f0)); }, light_tolerance};
+Instance takeda(const char *name, Cloth (*cloth)(), double f0) {
+    return {name, [=] { return Brdf(TakedaBrdf(bard_of(cloth()), f0)); }};
+}
+
+// Without the half turn the densities have a step where the slope of the map has one, and the
+// weights of grazing lights vary, and the tables with them.
+Instance takeda_leaning() {
+    Instance instance = takeda("TakedaLeaning", leaning_cloth, 0.05);
+    instance.light_tolerance = 0.05;
+    instance.evaluations = 500000;
+    instance.to_deg = 85;
+    return instance;
 }
 
 Instance half_vector(const char *name, Cloth (*cloth)(), double f0) {
-    return {name, [=] { return Brdf(HalfVectorBrdf(bard_of(cloth()), f0)); }};
+    Instance instance{name, [=] { return Brdf(HalfVectorBrdf(bard_of(cloth()), f0)); }};
+    instance.energy_evaluations = 60000;
+    return instance;
+}
+
+Instance printed(const char *name, Cloth (*cloth)(), double f0) {
+    return {name, [=] { return Brdf(TakedaPrintedBrdf(bard_of(cloth()), f0)); }, 0.2, 0.2, 500000,
+            89};
+}
+
+Instance ggx(const char *name, const GgxFacets &facets) {
+    return {name, [=] { return Brdf(GgxBrdf(facets)); }};
 }
 
 std::vector<Instance> instances() {
     return {{"Lambert", [] { return Brdf(LambertBrdf()); }, 1e-3, 1e-3},
+            {"LambertGrey", [] { return Brdf(LambertBrdf(0.3f)); }, 1e-3, 1e-3},
+            ggx("Ggx", {.alpha_weft = 0.4, .alpha_warp = 0.12}),
+            ggx("GgxGlass", {.alpha_weft = 0.1, .alpha_warp = 0.3, .refractive_index = 1.5}),
+            ggx("GgxMirrors", {.alpha_weft = 0.1, .alpha_warp = 0.08, .f0 = 1}),
+            printed("TakedaPrintedSatin", satin_cloth, 0.05),
+            printed("TakedaPrintedTwisted", twisted_cloth, 0.05),
+            {"TabulatedSatin",
+             [] { return Brdf(TabulatedBrdf(paper_table(satin_cloth(), 6, 15), "table")); }, 0.25,
+             0.25, 500000, 89},
             takeda("TakedaSatin", satin_cloth, 0.05),
             takeda("TakedaIsotropic", isotropic_cloth, 0.3),
             takeda("TakedaNarrow", narrow_cloth, 0.9),
             takeda("TakedaTwisted", twisted_cloth, 0.05),
-            // Without the half turn the weights of grazing lights vary, and the tables with them
-            takeda("TakedaLeaning", leaning_cloth, 0.05, 0.05),
+            takeda_leaning(),
             half_vector("HalfVectorSatin", satin_cloth, 0.05),
             half_vector("HalfVectorNarrow", narrow_cloth, 0.9),
             half_vector("HalfVectorTwisted", twisted_cloth, 0.05),
@@ -71,18 +105,24 @@ TEST_P(BrdfContract, NothingBelowTheHorizon) { expect(check_horizon(brdf())); }
 TEST_P(BrdfContract, WeightsAreValueOverDensity) { expect(check_weights(brdf())); }
 TEST_P(BrdfContract, ReciprocityIsAsDeclared) { expect(check_reciprocity(brdf())); }
 TEST_P(BrdfContract, EnergyIsLimitedAndTold) {
-    const Energy energy = check_energy(brdf(), GetParam().light_tolerance, 30000 * effort());
+    const Energy energy =
+        check_energy(brdf(), GetParam().light_tolerance, GetParam().energy_evaluations * effort());
     expect(energy.limit);
     expect(energy.albedo);
 }
 
 TEST_P(BrdfContract, AlbedoOfView) {
-    expect(check_albedo_of_view(brdf(), GetParam().view_tolerance, 30000 * effort()));
+    expect(check_albedo_of_view(brdf(), GetParam().view_tolerance,
+                                GetParam().energy_evaluations * effort()));
 }
 
 TEST_P(BrdfContract, DrawsFollowTheirDensity) {
     std::cout << "seed " << kSeed << "\n";
-    const Check check = check_draws(brdf(), 20000 * effort(), kSeed);
+    const Check check = check_draws(brdf(),
+                                    {.samples = 20000 * effort(),
+                                     .evaluations = GetParam().evaluations,
+                                     .to_deg = effort() > 1 ? 89.9 : GetParam().to_deg},
+                                    kSeed);
     EXPECT_TRUE(check.passed) << check.where;
 }
 

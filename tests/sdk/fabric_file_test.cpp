@@ -279,6 +279,37 @@ TEST_F(FabricFile, UnknownKeysAreRefusedWithTheNearestKnown) {
     expect(":6:2", "dye");
 }
 
+TEST_F(FabricFile, NamesItsModelFacetsAndTable) {
+    write_reflectance_table(paper_table(satin_cloth(), 30, 90), file("all.csv"));
+    Fabric fabric = satin();
+    fabric.model = "ggx";
+    fabric.ggx = {.alpha_weft = 0.25, .alpha_warp = 0.5, .refractive_index = 1.6};
+    fabric.table_file = "all.csv";
+    write_fabric(fabric, file("f.fabric.toml"));
+    const Fabric back = read_fabric(file("f.fabric.toml"));
+    EXPECT_EQ(back.model, "ggx");
+    EXPECT_EQ(back.ggx, fabric.ggx);
+    ASSERT_TRUE(back.table);
+    EXPECT_EQ(back.table->rows.size(), paper_table(satin_cloth(), 30, 90).rows.size());
+    EXPECT_TRUE(std::holds_alternative<GgxBrdf>(*resolve(back, "f").specular));
+    // Facets alone make a material too
+    const auto plastic = file("p.fabric.toml", kStart + "model = \"ggx\"\n[ggx]\nalpha_weft = 0.2\n"
+                                                        "alpha_warp = 0.2\nf0 = 0.04\n");
+    EXPECT_TRUE(resolve(read_fabric(plastic), "p").has_specular());
+}
+
+TEST_F(FabricFile, WrongModelsAndFacetsHaveAPlace) {
+    const auto where = [&](const std::string &text) {
+        return problems_of(read_fabric, file("f.fabric.toml", kStart + text)).at(0).where;
+    };
+    EXPECT_EQ(where("model = \"takedo\"\n"), ":3:9");
+    EXPECT_EQ(where("[ggx]\nalpha_weft = 2\nalpha_warp = 0.1\n"), ":4:14");
+    EXPECT_EQ(where("[ggx]\nalpha_weft = 0.2\n"), ":3:1");
+    EXPECT_EQ(where("[ggx]\nalpha_weft = 0.2\nalpha_warp = 0.1\nf0 = 0.1\n"
+                    "refractive_index = 1.5\n"),
+              ":7:20");
+}
+
 TEST_F(FabricFile, TooFewViewsNameTheFile) {
     const auto name =
         file("f.fabric.toml", kStart + "symmetry = \"none\"\n[views]\ntheta_deg = [0, 30]\n"

@@ -13,7 +13,8 @@ namespace {
 Fabric satin() { return {.name = "satin", .bard = bard_of(satin_cloth()), .f0 = 0.05}; }
 
 TEST(Models, AreNamedAndMade) {
-    const Fabric fabric = satin();
+    Fabric fabric = satin();
+    fabric.table = paper_table(satin_cloth(), 15, 30);
     for (const ModelName &model : model_names()) {
         EXPECT_FALSE(model.description.empty());
         const BrdfFunction f = make_model(std::string(model.name), fabric, "satin");
@@ -47,9 +48,102 @@ TEST(Models, AreRefusedWithAPlace) {
     };
     EXPECT_NE(refused("takedo", satin()).find("did you mean takeda"), std::string::npos);
     EXPECT_NE(refused("takeda", {}).find("f.toml.views"), std::string::npos);
+    EXPECT_NE(refused("ggx", {}).find("f.toml.views"), std::string::npos);
+    EXPECT_NE(refused("tabulated", satin()).find("f.toml.table"), std::string::npos);
+    Fabric rough = satin();
+    rough.ggx = {.alpha_weft = 2};
+    EXPECT_NE(refused("ggx", rough).find("f.toml.ggx.alpha_weft"), std::string::npos);
+    Fabric thin = satin();
+    thin.table = normal_table(satin_cloth(), even_grid(10, 30));
+    EXPECT_NE(refused("tabulated", thin).find("light from 1 "), std::string::npos);
     Fabric mirror = satin();
     mirror.f0 = 2;
     EXPECT_NE(refused("half_vector", mirror).find("f.toml.f0"), std::string::npos);
+}
+
+// f0 of 0 is refused by every model that divides by it, and the ends of its range are taken.
+TEST(Models, TakeEveryReflectanceOfFacetsButZero) {
+    const Bard bard = bard_of(isotropic_cloth());
+    for (const double f0 : {0.0, -0.1, 1.001, std::nan("")}) {
+        EXPECT_THROW(TakedaBrdf(bard, f0), Error);
+        EXPECT_THROW(TakedaPrintedBrdf(bard, f0), Error);
+        EXPECT_THROW(HalfVectorBrdf(bard, f0), Error);
+        EXPECT_THROW(GgxBrdf(GgxFacets{.f0 = f0}), Error);
+    }
+    EXPECT_THROW(GgxBrdf(GgxFacets{.refractive_index = 1.0}), Error);
+    EXPECT_NO_THROW(TakedaBrdf(bard, 1));
+    EXPECT_NO_THROW(GgxBrdf(GgxFacets{.f0 = 1}));
+}
+
+// GGX facets are found again from the views that they make.
+TEST(Ggx, IsFittedToViews) {
+    const Cloth cloth{.yarns = {{.alpha_weft = 0.35, .alpha_warp = 0.15}}, .f0 = 0.08};
+    const GgxFacets facets = fit_ggx(Bard::fit(normal_table(cloth, even_grid(4, 15)), {}, "cloth"));
+    EXPECT_NEAR(facets.alpha_weft, 0.35, 0.01);
+    EXPECT_NEAR(facets.alpha_warp, 0.15, 0.01);
+    EXPECT_NEAR(facets.f0, 0.08, 0.004);
+}
+
+// The model against the same formulas in double, masking and Fresnel term written as they are in
+// the sources: [Heitz] Eqs. 72, 85, 99.
+TEST(Ggx, MeetsThePlainFormulaInDouble) {
+    const Cloth cloth{.yarns = {{.alpha_weft = 0.35, .alpha_warp = 0.15}}, .f0 = 0.08};
+    const GgxBrdf schlick({.alpha_weft = 0.35, .alpha_warp = 0.15, .f0 = 0.08});
+    for (double theta_i = 0; theta_i < 90; theta_i += 8)
+        for (double theta = 0; theta < 90; theta += 7)
+            for (double phi = 0; phi < 360; phi += 33) {
+                const glm::vec3 l = direction(theta_i, 20), v = direction(theta, phi);
+                const double expected = reflectance(cloth, glm::normalize(glm::dvec3(l)),
+                                                    glm::normalize(glm::dvec3(v)));
+                EXPECT_NEAR(schlick.evaluate(l, v), expected, 1e-4 * expected)
+                    << theta_i << " " << theta << " " << phi;
+            }
+    // A mirror-like pole: F = ((n - 1)/(n + 1))^2 against f0 of the same value
+    const GgxBrdf glass({.alpha_weft = 0.2, .alpha_warp = 0.2, .refractive_index = 1.5});
+    const GgxBrdf same({.alpha_weft = 0.2, .alpha_warp = 0.2, .f0 = 0.04});
+    const glm::vec3 up(0, 0, 1);
+    EXPECT_NEAR(glass.evaluate(up, up), same.evaluate(up, up), 1e-5);
+    // At Brewster's angle half of the light is s-polarised: F = ((n^2 - 1)/(n^2 + 1))^2 / 2
+    const double brewster = std::atan(1.5) / 0.017453292519943295;
+    const glm::vec3 l = direction(brewster, 0), v = direction(brewster, 180);
+    const GgxBrdf mirror({.alpha_weft = 0.2, .alpha_warp = 0.2, .f0 = 1});
+    EXPECT_NEAR(glass.evaluate(l, v) / mirror.evaluate(l, v), std::pow(1.25 / 3.25, 2) / 2, 1e-5);
+}
+
+// [Takeda] Eqs. 16-17 by hand: light at 45 degrees in the weft plane.
+TEST(TakedaPrinted, MovesAViewAsThePaperPrintsIt) {
+    const glm::vec3 light = direction(45, 180); // R = +x
+    // In the plane of incidence: beta = 30 degrees, beta0/beta = 2, theta0 = 90 - 2 (90 - 60)
+    EXPECT_LT(glm::length(printed_basic(light, direction(60, 0)) - glm::vec3(direction(30, 0))),
+              1e-5f);
+    // phi_r = 20 degrees on the horizon: beta = 20 degrees, so phi0 = 40
+    EXPECT_LT(glm::length(printed_basic(light, direction(90, 20)) - glm::vec3(direction(90, 40))),
+              1e-5f);
+    // beta = 90 degrees: beta0/beta = 4/3, theta0 = 90 - 4/3 * 60, phi0 = 4/3 * 90
+    EXPECT_LT(glm::length(printed_basic(light, direction(30, 90)) - glm::vec3(direction(10, 120))),
+              1e-5f);
+    EXPECT_EQ(printed_basic({0, 0, 1}, light), light);
+}
+
+// Truth: rows come back as they are, mirror images too.
+TEST(Tabulated, MeetsItsRowsAndWhatLiesBetween) {
+    const Cloth cloth = satin_cloth();
+    const ReflectanceTable table = paper_table(cloth, 3, 5);
+    const TabulatedBrdf brdf(table, "table");
+    const auto f = [&](const glm::dvec3 &l, const glm::dvec3 &v) {
+        return double(brdf.evaluate(glm::vec3(l), glm::vec3(v)));
+    };
+    EXPECT_LT(measure_accuracy(table, f).mean.l2_cos.value(), 1e-4);
+    const glm::dvec3 l = direction(45, 90), v = direction(60, 250), mirror(-1, 1, 1);
+    EXPECT_NEAR(f(l, v), f(mirror * l, mirror * v), 1e-4 * f(l, v));
+    // Between the lights of the table, where the highlight must move and not fade over
+    ReflectanceTable between{.symmetry = cloth.symmetry};
+    constexpr double kDegree = 0.017453292519943295;
+    for (double theta = 0; theta < 88; theta += 4)
+        for (double phi = 0; phi < 360; phi += 10)
+            between.rows.push_back({37 * kDegree, 20 * kDegree, theta * kDegree, phi * kDegree,
+                                    reflectance(cloth, direction(37, 20), direction(theta, phi))});
+    EXPECT_LT(measure_accuracy(between, f).mean.l2_cos.value(), 0.1);
 }
 
 // The truth is a half-vector model itself, with another masking: where facets up to 45 degrees tell

@@ -73,6 +73,18 @@ ReflectanceTable normal_table(const Cloth &cloth, const ViewGrid &grid) {
     return table;
 }
 
+ReflectanceTable paper_table(const Cloth &cloth, double theta_step_deg, double phi_step_deg) {
+    ReflectanceTable table{.symmetry = cloth.symmetry};
+    for (double theta_i = 0; theta_i < 90; theta_i += 15)
+        for (double phi_i = 0; phi_i <= (theta_i > 0 ? 90 : 0); phi_i += 45)
+            for (double theta = 0; theta < 90; theta += theta_step_deg)
+                for (double phi = 0; phi<360; phi += theta> 0 ? phi_step_deg : 1000)
+                    table.rows.push_back(
+                        {theta_i * kDegree, phi_i * kDegree, theta * kDegree, phi * kDegree,
+                         reflectance(cloth, direction(theta_i, phi_i), direction(theta, phi))});
+    return table;
+}
+
 Cloth satin_cloth() {
     return {.yarns = {{.cover = 0.8, .alpha_weft = 0.42, .alpha_warp = 0.12},
                       {.cover = 0.2, .alpha_weft = 0.15, .alpha_warp = 0.38}}};

@@ -37,6 +37,10 @@ ViewGrid even_grid(double theta_step_deg, double phi_step_deg);
 
 ReflectanceTable normal_table(const Cloth &cloth, const ViewGrid &grid);
 
+// The lights of the paper's goniometer (theta_i 0 to 75 degrees in three planes) with views over
+// the whole hemisphere. Orthotropic cloths only.
+ReflectanceTable paper_table(const Cloth &cloth, double theta_step_deg, double phi_step_deg);
+
 // Two crossing systems as in a warp-faced satin; one round system; one narrow lobe; twisted yarn
 // that keeps the half turn only; leaning yarn that keeps nothing.
 Cloth satin_cloth();

@@ -2,6 +2,7 @@
 /// \file
 /// An albedo as a function of direction: smooth over most of the hemisphere, steep at grazing.
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -21,6 +22,7 @@ class AlbedoTable {
     /// \param direction unit, z >= 0
     float at(const glm::vec3 &direction) const;
     float maximum() const;
+    std::size_t bytes() const { return value_.size() * sizeof(float); }
     /// Nowhere at or above this cosine is the table above `value`; 0 where it never is.
     float cosine_above(float value) const;
 

@@ -12,10 +12,13 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/ggx.h"
 #include "tsuya/sdk/half_vector.h"
 #include "tsuya/sdk/lambert.h"
 #include "tsuya/sdk/sampled_direction.h"
+#include "tsuya/sdk/tabulated.h"
 #include "tsuya/sdk/takeda.h"
+#include "tsuya/sdk/takeda_printed.h"
 
 namespace tsuya {
 
@@ -46,10 +49,14 @@ concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer
 };
 // clang-format on
 
-using Brdf = std::variant<LambertBrdf, TakedaBrdf, HalfVectorBrdf>;
+using Brdf = std::variant<LambertBrdf, TakedaBrdf, TakedaPrintedBrdf, HalfVectorBrdf, GgxBrdf,
+                          TabulatedBrdf>;
 
 static_assert(BrdfModel<LambertBrdf>);
 static_assert(BrdfModel<TakedaBrdf>);
+static_assert(BrdfModel<TakedaPrintedBrdf>);
 static_assert(BrdfModel<HalfVectorBrdf>);
+static_assert(BrdfModel<GgxBrdf>);
+static_assert(BrdfModel<TabulatedBrdf>);
 
 } // namespace tsuya

@@ -2,6 +2,9 @@
 /// \file
 /// A function of direction as a table on the equal-area disk of the hemisphere.
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -16,11 +19,44 @@ class DiskTable {
     /// \param nodes along one axis of the quadrant (orthotropic) or of the whole square
     DiskTable(int nodes, bool orthotropic, const std::function<float(const glm::vec3 &)> &function);
     /// \param direction unit, z >= 0
-    float at(const glm::vec3 &direction) const;
+    float at(const glm::vec3 &direction) const {
+        const float scale = 1 / std::sqrt(1 + direction.z);
+        return at_disk(direction.x * scale, direction.y * scale);
+    }
+    /// \param x, y in [-1, 1]: the horizontal part of a direction over sqrt(1 + z)
+    float at_disk(float x, float y) const {
+        const Cell c = cell_of(x, y);
+        const float *const row = &value_[c.index], *const next = row + nodes_;
+        return (1 - c.t) * ((1 - c.s) * row[0] + c.s * row[1]) +
+               c.t * ((1 - c.s) * next[0] + c.s * next[1]);
+    }
+
+    /// Where a point lies: its first node of four, and the shares of the next column and row.
+    struct Cell {
+        std::uint32_t index;
+        float s, t;
+    };
+    Cell cell_of(float x, float y) const {
+        x = (fold_ * std::fabs(x) + (1 - fold_) * x) * scale_ + offset_;
+        y = (fold_ * std::fabs(y) + (1 - fold_) * y) * scale_ + offset_;
+        // Conversion cuts towards 0: rounding below the first node stays at it. What is no number
+        // becomes a large index, and so the last.
+        const auto last = static_cast<std::uint32_t>(nodes_ - 2);
+        const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
+        const auto j = static_cast<std::uint32_t>(static_cast<std::int32_t>(y));
+        const std::uint32_t column = i < last ? i : last, row = j < last ? j : last;
+        return {row * static_cast<std::uint32_t>(nodes_) + column,
+                x - static_cast<float>(static_cast<std::int32_t>(column)),
+                y - static_cast<float>(static_cast<std::int32_t>(row))};
+    }
+    const float *data() const { return value_.data(); }
+    int nodes() const { return nodes_; }
+    std::size_t bytes() const { return value_.size() * sizeof(float); }
 
   private:
     int nodes_ = 0;
-    bool orthotropic_ = true;
+    float fold_ = 1;               ///< 0 where the table holds the whole square
+    float scale_ = 0, offset_ = 0; ///< from the disk to nodes
     std::vector<float> value_{};
 };
 

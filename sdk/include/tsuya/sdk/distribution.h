@@ -2,6 +2,8 @@
 /// \file
 /// A piecewise constant density on a rectangle of cells, sampled by inversion.
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,7 @@ class Distribution2D {
   public:
     Distribution2D() = default;
     /// \param weights rows * columns masses of the cells, >= 0, finite; all 0 counts as all 1
+    /// \param rows, columns 1 to 65535
     Distribution2D(std::span<const double> weights, int rows, int columns);
 
     struct Sample {
@@ -24,12 +27,23 @@ class Distribution2D {
     Sample sample(glm::vec2 u) const;
     /// Density at a point of the unit square.
     float density(glm::vec2 point) const;
+    std::size_t bytes() const {
+        return (row_cdf_.size() + column_cdf_.size()) * sizeof(float) +
+               (row_guide_.size() + column_guide_.size()) * sizeof(std::uint16_t);
+    }
 
   private:
-    int rows_ = 0, columns_ = 0;
-    std::vector<float> density_{};    ///< [row][column]
+    struct Draw {
+        std::size_t cell;
+        float offset; ///< in [0, 1)
+    };
+    static Draw invert(const float *cdf, const std::uint16_t *guide, std::size_t cells, float u);
+
+    std::size_t rows_ = 0, columns_ = 0;
     std::vector<float> row_cdf_{};    ///< rows + 1
     std::vector<float> column_cdf_{}; ///< [row][column], columns + 1 each
+    /// Where the search in a cumulative sum begins, for even steps of u: one step a cell
+    std::vector<std::uint16_t> row_guide_{}, column_guide_{};
 };
 
 } // namespace tsuya

@@ -18,9 +18,15 @@ namespace tsuya {
 struct Fabric {
     std::string name{};
     std::map<std::string, std::string> keys{}; ///< provenance
-    std::optional<Bard> bard{};                ///< none: no specular part
-    std::optional<double> f0{};                ///< in (0, 1]; none: rho0(0,0), as [Takeda] has it
-    Spectrum dye = Spectrum::constant(0.0);    ///< diffuse reflectance, 0..1
+    std::string model = "takeda";              ///< of the specular part, see model_names
+    std::optional<Bard> bard{};                ///< the measured views, for the models made of them
+    std::optional<GgxFacets> ggx{};            ///< for the model `ggx`; none: fitted to the views
+    /// For the model `tabulated`: every light and view, and the file that holds them, from the
+    /// folder of the fabric's file.
+    std::optional<ReflectanceTable> table{};
+    std::string table_file{};
+    std::optional<double> f0{};             ///< in (0, 1]; none: rho0(0,0), as [Takeda] has it
+    Spectrum dye = Spectrum::constant(0.0); ///< diffuse reflectance, 0..1
     Spectrum specular_tint = Spectrum::constant(1); ///< colour of the specular part, 0..1
 };
 
@@ -38,11 +44,12 @@ struct Material {
 /// not in (0, 1].
 double f0_of(const Fabric &fabric, const std::string &where);
 
-/// Throws Error naming `where`: a spectrum outside 0..1, f0 outside (0, 1].
+/// A fabric without what its model is made of, or with views that are all 0, has no specular part.
+/// Throws Error naming `where`: a spectrum outside 0..1, f0 outside (0, 1]; as make_brdf.
 Material resolve(const Fabric &fabric, const std::string &where);
 
-/// Reads F.fabric.toml. Throws Error with file:line:column; unknown keys are refused with the
-/// nearest known.
+/// Reads F.fabric.toml, and the table it names. Throws Error with file:line:column; unknown keys
+/// and models are refused with the nearest known.
 Fabric read_fabric(const std::filesystem::path &file);
 
 /// Writes F.fabric.toml through a temporary file, with the views at normal incidence in it.

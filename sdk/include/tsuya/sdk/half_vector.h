@@ -28,7 +28,7 @@ class HalfVectorBrdf {
     static constexpr bool kReciprocal = true;
     static constexpr bool kEnergyLimited = true;
 
-    /// \param f0 reflectance of the facets at normal incidence, in (0, 1]
+    /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
     HalfVectorBrdf(const Bard &bard, double f0);
 
     float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The ideal diffuse reflector of albedo 1. Reciprocal, energy-limited.
+/// The ideal diffuse reflector. Reciprocal, energy-limited.
 
 #include <optional>
 
@@ -10,11 +10,14 @@
 
 namespace tsuya {
 
-/// f = 1/pi. Sampled by the cosine. See brdf.h for the contract.
+/// f = albedo/pi. Sampled by the cosine. See brdf.h for the contract.
 class LambertBrdf {
   public:
     static constexpr bool kReciprocal = true;
     static constexpr bool kEnergyLimited = true;
+
+    /// \param albedo in [0, 1]
+    explicit constexpr LambertBrdf(float albedo = 1) : albedo_(albedo) {}
 
     float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
@@ -26,6 +29,9 @@ class LambertBrdf {
     float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float albedo_of_light(const glm::vec3 &to_light) const;
     float albedo_of_view(const glm::vec3 &to_viewer) const;
+
+  private:
+    float albedo_;
 };
 
 } // namespace tsuya

@@ -16,12 +16,22 @@ struct ModelName {
     std::string_view description;
 };
 
-/// All models, the one that `resolve` takes first.
+/// All models, the default of fabrics first.
 std::span<const ModelName> model_names();
+
+/// Throws Error naming `where` and the known models.
+void check_model_name(const std::string &name, const std::string &where);
+
+/// Whether the fabric has what the model is made of: measured views with a value above 0; of
+/// `tabulated` a table; of `ggx` either facets or views.
+bool has_data_of(const std::string &model, const Fabric &fabric);
 
 /// The specular part of a fabric by the named model. `lambert` is the ideal diffuser of the same
 /// albedo under light from straight above. Throws Error naming `where`: an unknown name, with the
-/// known ones; a fabric without measured views; as resolve.
+/// known ones; a fabric without the data of the model; f0 outside (0, 1]; as the models themselves.
+Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string &where);
+
+/// The same as a function, for comparisons.
 BrdfFunction make_model(const std::string &name, const Fabric &fabric, const std::string &where);
 
 } // namespace tsuya

@@ -38,6 +38,11 @@ struct ReflectanceTable {
     ReflectanceTable normal_incidence() const;
 };
 
+/// Throws Error naming `where`, with up to 20 problems: a value or angle that is not a finite
+/// number, a value below 0, an angle from the normal outside 0 to 90 degrees; rows of one pair of
+/// directions that differ by more than a factor of 2 and more than their standard errors allow.
+void check_table(const ReflectanceTable &table, const std::string &where);
+
 /// Reads TABLE.csv: comment lines `# key: value`, a header line, and rows
 /// `theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr[,sigma_per_sr]`, degrees.
 /// Throws Error with file:line:column of up to 20 problems: columns missing, not a number,

@@ -3,7 +3,9 @@
 /// The model of [Takeda] in the great-circle form: the BARD moved and scaled to every direction of
 /// light.
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
 #include <glm/glm.hpp>
 
@@ -24,11 +26,15 @@ class TakedaBrdf {
     static constexpr bool kReciprocal = false;
     static constexpr bool kEnergyLimited = true;
 
-    /// \param f0 reflectance of the facets at normal incidence, in (0, 1]
+    /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
     TakedaBrdf(const Bard &bard, double f0);
 
     float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    /// The same for many pairs at once, several times as fast where the processor has wide vectors:
+    /// equal to the calls one by one but for rounding. The spans are of one length.
+    void evaluate_cos(std::span<const glm::vec3> to_light, std::span<const glm::vec3> to_viewer,
+                      std::span<float> f_cos) const;
     std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
     std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
                                                    const glm::vec3 &u) const;
@@ -40,23 +46,22 @@ class TakedaBrdf {
 
     /// Largest albedo_of_light before it was limited.
     float unlimited_albedo() const { return unlimited_albedo_; }
+    /// Memory of the tables.
+    std::size_t table_bytes() const;
 
   private:
-    struct Terms;
-    Terms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
-                const glm::vec3 &basic) const;
     float limit(const glm::vec3 &to_light) const;
+    void tabulate_densities();
     void tabulate_albedos(Symmetry symmetry);
     std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
-    float density_of_basic(const glm::vec3 &basic) const;
     float density_of_view(const GreatCircle &circle) const;
-    float density_of_light(const GreatCircle &circle, const glm::vec3 &to_light,
-                           const glm::vec3 &to_viewer) const;
 
     float f0_ = 0.05f;
-    bool half_turn_ = true;      ///< rho0 repeats after half a turn: the even proposal can be used
-    DiskTable scaled_{};         ///< rho0(V0) max(cos theta0, 1/2) / F(cos(theta0/2))
-    Distribution2D density_{};   ///< proportional to rho0 cos theta0, on the square of the disk
+    bool half_turn_ = true; ///< rho0 repeats after half a turn: the even proposal can be used
+    DiskTable scaled_{};    ///< rho0(V0) max(cos theta0, 1/2) / F(cos(theta0/2))
+    Distribution2D
+        basics_{}; ///< of V0, proportional to rho0 cos theta0, on the square about its disk
+    Distribution2D halves_{};    ///< of H, on the square about the disk of its horizontal part
     AlbedoTable light_albedo_{}; ///< before the limit
     AlbedoTable view_albedo_{};
     float unlimited_albedo_ = 0;
