@@ -12,13 +12,15 @@ namespace tsuya {
 namespace {
 
 constexpr int kQuadratureCells = 96;
+constexpr double kFibreF0 = 0.05; // of an index of 1.58: fibres have 1.53 to 1.6
 
-constexpr std::array<ModelName, 6> kModels = {{
+constexpr std::array<ModelName, 7> kModels = {{
     {"takeda", "great-circle model through a few measured views"},
     {"takeda_printed", "the same with the map as it is printed, to reproduce the paper"},
     {"half_vector", "microfacets whose distribution is read off the measured views; reciprocal"},
     {"ggx", "anisotropic GGX facets, given or fitted to the measured views; reciprocal"},
     {"lambert", "ideal diffuser"},
+    {"yarn", "warp and weft as rough cylinders fitted to the measured views; reciprocal"},
     {"tabulated", "every light and view from a table; no prediction"},
 }};
 
@@ -71,6 +73,8 @@ Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string 
     }
     if (name == "lambert")
         return LambertBrdf(static_cast<float>(std::min(1.0, albedo_of(*fabric.bard))));
+    if (name == "yarn")
+        return YarnBrdf(*fabric.bard, fabric.f0 ? f0_of(fabric, where) : kFibreF0);
     const double f0 = f0_of(fabric, where);
     if (name == "half_vector")
         return HalfVectorBrdf(*fabric.bard, f0);

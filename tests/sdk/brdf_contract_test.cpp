@@ -61,6 +61,11 @@ Instance ggx(const char *name, const GgxFacets &facets) {
     return {name, [=] { return Brdf(GgxBrdf(facets)); }};
 }
 
+Instance yarn(const char *name, Cloth (*cloth)(), double f0) {
+    // At 89.5 degrees and beyond the albedo changes fast with azimuth
+    return {name, [=] { return Brdf(YarnBrdf(bard_of(cloth()), f0)); }, 0.06};
+}
+
 std::vector<Instance> instances() {
     return {{"Lambert", [] { return Brdf(LambertBrdf()); }, 1e-3, 1e-3},
             {"LambertGrey", [] { return Brdf(LambertBrdf(0.3f)); }, 1e-3, 1e-3},
@@ -80,7 +85,11 @@ std::vector<Instance> instances() {
             half_vector("HalfVectorSatin", satin_cloth, 0.05),
             half_vector("HalfVectorNarrow", narrow_cloth, 0.9),
             half_vector("HalfVectorTwisted", twisted_cloth, 0.05),
-            half_vector("HalfVectorLeaning", leaning_cloth, 0.05)};
+            half_vector("HalfVectorLeaning", leaning_cloth, 0.05),
+            yarn("YarnSatin", satin_cloth, 0.05),
+            yarn("YarnNarrow", narrow_cloth, 0.9),
+            yarn("YarnTwisted", twisted_cloth, 0.05),
+            yarn("YarnLeaning", leaning_cloth, 0.05)};
 }
 
 class BrdfContract : public testing::TestWithParam<Instance> {

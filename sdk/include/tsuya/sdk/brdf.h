@@ -19,6 +19,7 @@
 #include "tsuya/sdk/tabulated.h"
 #include "tsuya/sdk/takeda.h"
 #include "tsuya/sdk/takeda_printed.h"
+#include "tsuya/sdk/yarn.h"
 
 namespace tsuya {
 
@@ -50,7 +51,7 @@ concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer
 // clang-format on
 
 using Brdf = std::variant<LambertBrdf, TakedaBrdf, TakedaPrintedBrdf, HalfVectorBrdf, GgxBrdf,
-                          TabulatedBrdf>;
+                          TabulatedBrdf, YarnBrdf>;
 
 static_assert(BrdfModel<LambertBrdf>);
 static_assert(BrdfModel<TakedaBrdf>);
@@ -58,5 +59,6 @@ static_assert(BrdfModel<TakedaPrintedBrdf>);
 static_assert(BrdfModel<HalfVectorBrdf>);
 static_assert(BrdfModel<GgxBrdf>);
 static_assert(BrdfModel<TabulatedBrdf>);
+static_assert(BrdfModel<YarnBrdf>);
 
 } // namespace tsuya

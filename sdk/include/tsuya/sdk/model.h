@@ -27,7 +27,8 @@ void check_model_name(const std::string &name, const std::string &where);
 bool has_data_of(const std::string &model, const Fabric &fabric);
 
 /// The specular part of a fabric by the named model. `lambert` is the ideal diffuser of the same
-/// albedo under light from straight above. Throws Error naming `where`: an unknown name, with the
+/// albedo under light from straight above; `yarn` takes f0 = 0.05, a fibre's, where the fabric has
+/// none. Throws Error naming `where`: an unknown name, with the
 /// known ones; a fabric without the data of the model; f0 outside (0, 1]; as the models themselves.
 Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string &where);
 
