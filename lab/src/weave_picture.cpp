@@ -229,7 +229,7 @@ Image draft_picture(const Weave &weave, const WeavePictureSettings &settings) {
     const double x_step = weave.warp.spacing() * metre;
     const double y_step = weave.weft.spacing() * metre * std::cos(settings.tilt);
     const double right = x_step * weave.draft.ends, top = y_step * weave.draft.picks;
-    const double line = std::max(0.5, settings.width / 900.0), frame = 2.5 * line;
+    const double line = std::max(1.0, settings.width / 900.0), frame = 2.5 * line;
     for (int row = 0; row < image.height; ++row)
         for (int column = 0; column < image.width; ++column) {
             const double x = column + 0.5, y = image.height - row - 0.5;

@@ -45,7 +45,7 @@ TEST(FabricEvaluate, ReportsEveryMeasureOfEveryModelAsJson) {
     const json report = json::parse(done.out);
     EXPECT_EQ(report.at("schema"), "tsuya-fabric-evaluate 1");
     EXPECT_EQ(report.at("table"), table);
-    ASSERT_EQ(report.at("results").size(), 3u);
+    ASSERT_EQ(report.at("results").size(), 5u); // no table, so not `tabulated`
     EXPECT_EQ(report["results"][0].at("model"), "takeda");
     for (const json &result : report["results"]) {
         ASSERT_EQ(result.at("directions").size(), 2u);
@@ -249,6 +249,16 @@ TEST(FabricShow, DrawsAWeaveBesideItsDraft) {
     for ([[maybe_unused]] const auto &entry : fs::directory_iterator(scratch.folder()))
         ++files;
     EXPECT_EQ(files, 3u);
+}
+
+TEST(FabricShow, DrawsTheSampleDraft) {
+    const Scratch scratch;
+    const fs::path wif = scene::data_folder() / "weaves/eight_end_satin.wif";
+    const fs::path svg = scratch / "satin.svg";
+    const Outcome drawn =
+        run(scratch, {"show", "--weave", wif.string(), "-o", svg.string(), "--size", "64"});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_NE(read_file(svg).find(">Eight-end satin<"), std::string::npos);
 }
 
 TEST(FabricShow, RefusesAWeaveThatItCannotDraw) {
