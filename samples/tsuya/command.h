@@ -42,6 +42,7 @@ std::unique_ptr<Command> make_list(CLI::App &program);
 std::unique_ptr<Command> make_fabric_fit(CLI::App &fabric);
 std::unique_ptr<Command> make_fabric_evaluate(CLI::App &fabric);
 std::unique_ptr<Command> make_fabric_show(CLI::App &fabric);
+std::unique_ptr<Command> make_fabric_paper(CLI::App &fabric);
 std::unique_ptr<Command> make_fabric_simulate(CLI::App &fabric);
 
 } // namespace tsuya::program

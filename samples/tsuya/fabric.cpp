@@ -14,8 +14,8 @@ class FabricCommand final : public Command {
         : app_(*program.add_subcommand("fabric", "Make fabrics, examine them")) {
         app_.require_subcommand(1);
         app_.footer("Example:\n  tsuya fabric fit black_satin.csv -o black_satin.fabric.toml");
-        for (const auto make :
-             {make_fabric_fit, make_fabric_simulate, make_fabric_evaluate, make_fabric_show})
+        for (const auto make : {make_fabric_fit, make_fabric_simulate, make_fabric_evaluate,
+                                make_fabric_show, make_fabric_paper})
             commands_.push_back(make(app_));
     }
 
