@@ -50,6 +50,9 @@ Prepared prepare(const PolygonMesh &metres, const SeamOptions &options) {
     }
     // The garment: panels joined along their seams.
     out.mesh = join_seams(panels, options, report.seams, report.joined, out.positions);
+    if (out.mesh.face_count() == 0)
+        throw Error({"no face is left after seams were joined", "mesh",
+                     "expected faces larger than the tolerance of seams"});
     const HalfEdgeMesh half_edges = make_half_edges(out.mesh);
     report.parts = count_parts(half_edges);
     report.openings = measure_loops(half_edges);

@@ -5,10 +5,7 @@
 #include <map>
 #include <vector>
 
-#include <opensubdiv/bfr/tessellation.h>
-#include <opensubdiv/far/topologyRefiner.h>
-
-#include "tsuya/garment/polygon_mesh.h"
+#include "tessellation_rates.h"
 
 namespace tsuya::garment {
 
@@ -20,17 +17,24 @@ struct FacePattern {
     std::uint32_t interior_count = 0;
 };
 
-/// Patterns for every face size of a mesh, each edge cut into `rate`.
-std::map<std::uint32_t, FacePattern> make_patterns(const PolygonMesh &mesh,
-                                                   OpenSubdiv::Sdc::SchemeType scheme, int rate);
+/// The pattern of every face; faces that are cut alike share one.
+class FacePatterns {
+  public:
+    FacePatterns(const LimitSurface &surface, const TessellationRates &rates);
+    const FacePattern &of(std::size_t face) const { return *of_face_[face]; }
+
+  private:
+    std::map<std::vector<int>, FacePattern> patterns_;
+    std::vector<const FacePattern *> of_face_;
+};
 
 /// Numbers the vertices of the limit surface face by face: those numbered with face f are
 /// `face_first()[f]` up to `face_first()[f + 1]` and are that face's to evaluate. A corner or edge
 /// is shared by faces of one panel whose UV indices agree there.
 class LimitNumbering {
   public:
-    LimitNumbering(const PolygonMesh &mesh, const OpenSubdiv::Far::TopologyRefiner &refiner,
-                   const std::map<std::uint32_t, FacePattern> &patterns, int rate);
+    LimitNumbering(const LimitSurface &surface, const FacePatterns &patterns,
+                   const TessellationRates &rates);
 
     /// Vertex of each coordinate of the face's pattern, in the pattern's order.
     void face_vertices(std::size_t face, std::uint32_t interior_count,
@@ -53,11 +57,11 @@ class LimitNumbering {
     std::uint32_t find_or_add(std::uint32_t &head, Side side, std::uint32_t count);
 
     const PolygonMesh &mesh_;
-    std::uint32_t inner_; ///< points inside an edge
     std::vector<std::uint32_t> face_first_{0};
     std::vector<std::uint32_t> place_;
     std::vector<Side> sides_;
     std::vector<std::uint32_t> corner_vertex_;   ///< per corner
+    std::vector<std::uint32_t> edge_inner_;      ///< per corner: points inside the edge
     std::vector<std::uint32_t> edge_vertex_;     ///< per corner: of the edge that starts there
     std::vector<std::uint32_t> interior_vertex_; ///< per face
 };

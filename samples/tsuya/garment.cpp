@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command.h"
+#include "grain_option.h"
 #include "json_file.h"
 #include "tsuya/garment/check.h"
 #include "tsuya/garment/garment.h"
@@ -26,7 +27,8 @@ class GarmentCommand final : public Command {
         app_.footer("Example:\n  tsuya garment check dress.obj --strict");
         check_.footer("Example:\n  tsuya garment check dress.obj --strict\n"
                       "With --strict, a warning gives exit status 4.");
-        subdivide_.footer("Example:\n  tsuya garment subdivide dress.obj -o fine.obj --level 2");
+        subdivide_.footer(
+            "Example:\n  tsuya garment subdivide dress.obj -o fine.ply --tolerance 1e-4");
         for (CLI::App *app : {&check_, &subdivide_}) {
             app->add_option("mesh", mesh_, "MESH.obj, .gltf, .glb, .ply or .off")->required();
             app->add_option("--unit", unit_, "Of the mesh: m, dm, cm, mm, in")
@@ -39,6 +41,15 @@ class GarmentCommand final : public Command {
         subdivide_.add_option("--level", level_, "Cuts each edge into 2^level")
             ->check(CLI::Range(0, 8))
             ->capture_default_str();
+        subdivide_
+            .add_option("--tolerance", tolerance_,
+                        "METRES that triangles may depart from the limit surface")
+            ->check(CLI::PositiveNumber)
+            ->excludes("--level");
+        subdivide_.add_flag("--strict", strict_, "Refuse a mesh with a warning");
+        subdivide_.add_option(
+            "--grain", grain_,
+            "Of a mesh without UV: vertical, horizontal, or degrees from the vertical");
     }
 
     bool called() const override { return app_.parsed(); }
@@ -65,7 +76,9 @@ class GarmentCommand final : public Command {
 
     Status subdivide(Console &console) const {
         const garment::Options options{.metres_per_unit = garment::metres_per(unit_),
-                                       .subdivide = {.level = level_}};
+                                       .subdivide = {.level = level_, .tolerance = tolerance_},
+                                       .frames = {.invented_grain = parse_grain(grain_)},
+                                       .strict = strict_};
         scene::prepare_output_file(output_, {".obj", ".ply"});
         const garment::LoadedGarment loaded = garment::load(mesh_, options, console.progress());
         console.warnings(loaded.report, mesh_.string());
@@ -117,7 +130,9 @@ class GarmentCommand final : public Command {
     CLI::App &subdivide_;
     std::filesystem::path mesh_{}, output_{};
     std::string unit_ = "m";
+    std::string grain_{};
     int level_ = 1;
+    std::optional<double> tolerance_{};
     bool json_ = false, strict_ = false;
 };
 

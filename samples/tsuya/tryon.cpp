@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "command.h"
+#include "grain_option.h"
 #include "look_options.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/tryon.h"
@@ -17,8 +18,9 @@ class TryOnCommand final : public Command {
         app_.footer("Example:\n  tsuya tryon --garment dress.obj --fabric black_satin --dye "
                     "white,indigo --lamps D65,A -o out\n"
                     "Without a garment: the sample dress on its mannequin.");
-        CLI::Option *garment = app_.add_option("--garment", garment_, "Mesh (OBJ) with panel UVs");
-        app_.add_option("--body", job_.body, "Mesh (OBJ) that wears it")->needs(garment);
+        CLI::Option *garment =
+            app_.add_option("--garment", garment_, "Mesh (OBJ, glTF, PLY, OFF) with panel UVs");
+        app_.add_option("--body", job_.body, "Mesh that wears it")->needs(garment);
         app_.add_option("--fabric", fabric_, "F.fabric.toml, or a name of `tsuya list fabrics`")
             ->capture_default_str();
         app_.add_option("--dye", job_.dyes, "Names of `tsuya list dyes`, #rrggbb, F.csv")
@@ -33,6 +35,12 @@ class TryOnCommand final : public Command {
         app_.add_option("--level", job_.level, "Of subdivision")
             ->check(CLI::Range(0, 8))
             ->capture_default_str();
+        app_.add_option("--tolerance", job_.tolerance,
+                        "METRES that triangles may depart from the limit surface")
+            ->check(CLI::PositiveNumber)
+            ->excludes("--level");
+        app_.add_option("--grain", grain_,
+                        "Of a garment without UV: vertical, horizontal, or degrees from it");
         app_.add_option("--azimuth", job_.azimuth_deg, "Of the camera, degrees; 0 sees the front")
             ->check(CLI::Range(-360.0, 360.0))
             ->capture_default_str();
@@ -53,6 +61,7 @@ class TryOnCommand final : public Command {
             job_.garment = garment_;
         }
         job_.fabric = scene::find_fabric(fabric_, data);
+        job_.invented_grain = parse_grain(grain_);
         job_.look = look_.look();
         job_.render.stop.relative_error = error_;
         if (samples_)
@@ -102,7 +111,7 @@ class TryOnCommand final : public Command {
     CLI::App &app_;
     scene::TryOn job_{};
     std::filesystem::path garment_{}, data_{};
-    std::string fabric_ = "black_satin";
+    std::string fabric_ = "black_satin", grain_{};
     LookOptions look_{};
     double error_ = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples_{};

@@ -130,7 +130,8 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
     TryOnScene made;
     Fabric fabric = read_fabric(job.fabric);
     garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
-                             .subdivide = {.level = job.level}};
+                             .subdivide = {.level = job.level, .tolerance = job.tolerance},
+                             .frames = {.invented_grain = job.invented_grain}};
     if (!fabric.bard)
         options.want_frames = false;
     garment::LoadedGarment garment = garment::load(job.garment, options, progress);

@@ -3,6 +3,8 @@
 /// The limit surface of a control mesh, with the derivatives of the cloth.
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 
 #include "tsuya/garment/polygon_mesh.h"
 #include "tsuya/sdk/progress.h"
+#include "tsuya/sdk/scene.h"
 
 namespace tsuya::garment {
 
@@ -17,11 +20,26 @@ namespace tsuya::garment {
 // [CatmullClark], [LoopScheme]
 enum class Scheme { automatic, catmark, loop };
 
+/// A camera and lights that say how fine each face must be.
+struct ViewTolerance {
+    Camera camera{};
+    double pixels = 0.25; ///< largest departure from the limit surface, in pixels
+    /// Places of lights, metres. Faces outside the picture whose shadows cannot fall into it stay
+    /// as coarse as the control mesh; the others are as fine as their shadow needs.
+    std::vector<glm::dvec3> lights{};
+};
+
 /// How the limit surface is sampled. Hems stay smooth curves that interpolate sharp corners (a
 /// vertex of one face).
 struct SubdivideOptions {
     Scheme scheme = Scheme::automatic;
-    int level = 1;            ///< 0 to 8: each edge of the control mesh is cut into 2^level
+    int level = 1; ///< 0 to 8: each edge of the control mesh is cut into 2^level
+    /// Metres. Where this or `view` is set, `level` does not count: each edge is cut into as many
+    /// pieces, 1 to 256, as keep triangles this near to the limit surface. Estimated from second
+    /// derivatives: about extraordinary vertices of triangle meshes up to three times as much was
+    /// measured.
+    std::optional<double> tolerance{};
+    std::optional<ViewTolerance> view{}; ///< with `tolerance`, the finer of the two
     double seam_crease = 0.0; ///< sharpness of edges where UVs part, 0 (smooth) to 10 (sharp)
 };
 
@@ -49,5 +67,39 @@ struct LimitMesh {
 /// vertex or face of 256 neighbours or more.
 LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options = {},
                     const Progress &progress = {});
+
+/// One control mesh whose positions change (an animated show): topology, rates of tessellation,
+/// numbering and UVs are worked out once.
+class Subdivider {
+  public:
+    /// Throws as subdivide.
+    Subdivider(PolygonMesh mesh, const SubdivideOptions &options);
+    ~Subdivider();
+    Subdivider(Subdivider &&) noexcept;
+    Subdivider &operator=(Subdivider &&) noexcept;
+
+    /// The limit surface of the mesh as it was given.
+    LimitMesh evaluate(const Progress &progress = {});
+    /// The limit surface of other positions; vertices and triangles keep their numbers. The rates
+    /// stay those of the mesh that was given. Throws Error for another number of positions.
+    LimitMesh evaluate(const std::vector<glm::dvec3> &positions, const Progress &progress = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Departure of triangles from the true limit surface, measured at points inside of them.
+struct TessellationError {
+    double position = 0, position_rms = 0; ///< metres, from the limit point to its triangle
+    double pixels = 0;                     ///< the largest in pixels of the camera; 0 without one
+    double normal = 0, normal_rms = 0;     ///< radians, of the interpolated normal
+    double warp = 0, warp_rms = 0;         ///< radians, of the interpolated dP/dv
+    std::size_t triangles = 0;
+};
+
+/// Measures what the triangles of `subdivide` depart by. \param camera whose pixels are counted
+TessellationError measure_tessellation(const PolygonMesh &mesh, const SubdivideOptions &options,
+                                       const std::optional<Camera> &camera = {});
 
 } // namespace tsuya::garment

@@ -7,6 +7,7 @@
 ///     for (const auto &file : tsuya::scene::run(job).files) ...
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,13 @@ inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_erro
 
 /// What is tried on and how it is shown.
 struct TryOn {
-    std::filesystem::path garment{}; ///< a mesh with the UV of its panels
-    std::filesystem::path body{};    ///< a mesh; empty: none
-    std::filesystem::path fabric{};  ///< F.fabric.toml
-    std::string unit = "m";          ///< of garment and body, see garment::metres_per
-    int level = 1;                   ///< of subdivision, 0 to 8
+    std::filesystem::path garment{};        ///< a mesh with the UV of its panels
+    std::filesystem::path body{};           ///< a mesh; empty: none
+    std::filesystem::path fabric{};         ///< F.fabric.toml
+    std::optional<double> tolerance{};      ///< metres; in place of `level`, see SubdivideOptions
+    std::optional<double> invented_grain{}; ///< of a garment without UV, see FrameOptions
+    std::string unit = "m";                 ///< of garment and body, see garment::metres_per
+    int level = 1;                          ///< of subdivision, 0 to 8
     /// One render and one row of the sheet each, see parse_dye. Empty: the fabric's own dye.
     std::vector<std::string> dyes{"white", "crimson"};
     std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_lamps

@@ -1,0 +1,79 @@
+#pragma once
+/// \file
+/// The limit surface of a control mesh as something that can be evaluated at any point of any face.
+
+#include <memory>
+#include <mutex>
+#include <shared_mutex>
+#include <vector>
+
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/far/topologyRefiner.h>
+
+#include "tsuya/garment/subdivide.h"
+
+namespace tsuya::garment {
+
+/// Position, UV and their derivatives by the face's own coordinates.
+struct LimitSample {
+    glm::dvec3 p, p_u, p_v;
+    glm::dvec2 t{0.0}, t_u{0.0}, t_v{0.0};
+
+    /// False where the tangents enclose no area.
+    bool normal(glm::dvec3 &n) const;
+    /// Derivatives by UV; false where the UV is degenerate.
+    bool cloth(glm::dvec3 &dp_du, glm::dvec3 &dp_dv) const;
+};
+
+/// Second derivatives of the position by the face's own coordinates.
+struct LimitCurvature {
+    glm::dvec3 normal{0.0}; ///< of the surface; 0 where it has none
+    glm::dvec3 p_u{0.0}, p_v{0.0};
+    glm::dvec3 p_uu{0.0}, p_uv{0.0}, p_vv{0.0};
+};
+
+/// Evaluates by OpenSubdiv's Bfr. Several threads may evaluate, each with a Scratch of its own.
+class LimitSurface {
+  public:
+    using Surface = OpenSubdiv::Bfr::Surface<double>;
+    struct Scratch {
+        Surface surface, uv_surface;
+        std::vector<double> points, uv_points;
+        bool has_uv = false;
+    };
+
+    /// \param mesh manifold; must outlive this
+    /// Throws Error for the Loop scheme with faces that are not triangles, and for bad options.
+    LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &options);
+
+    OpenSubdiv::Sdc::SchemeType scheme() const { return scheme_; }
+    const OpenSubdiv::Far::TopologyLevel &topology() const { return refiner_->GetLevel(0); }
+    const PolygonMesh &mesh() const { return mesh_; }
+    /// Other positions for the same topology.
+    void set_positions(const std::vector<glm::dvec3> &positions);
+    const glm::dvec3 &centre() const { return centre_; }
+
+    /// Sets `scratch` to a face; the following work on that face.
+    void prepare(std::size_t face, Scratch &scratch) const;
+    /// \param at the face's own coordinates. The position is relative to `centre`.
+    LimitSample sample(const glm::dvec2 &at, const Scratch &scratch) const;
+    LimitCurvature curvature(const glm::dvec2 &at, const Scratch &scratch) const;
+    /// A point near `at`, a little nearer to the middle of the face.
+    glm::dvec2 nudged(const glm::dvec2 &at, const Scratch &scratch) const;
+
+  private:
+    using Factory =
+        OpenSubdiv::Bfr::RefinerSurfaceFactory<OpenSubdiv::Bfr::SurfaceFactoryCacheThreaded<
+            std::shared_mutex, std::shared_lock<std::shared_mutex>,
+            std::unique_lock<std::shared_mutex>>>;
+
+    const PolygonMesh &mesh_;
+    OpenSubdiv::Sdc::SchemeType scheme_;
+    std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> refiner_;
+    std::unique_ptr<Factory> factory_;
+    glm::dvec3 centre_{0.0};
+    std::vector<glm::dvec3> relative_; ///< positions less the centre
+    std::vector<glm::dvec2> uv_;
+};
+
+} // namespace tsuya::garment
