@@ -89,7 +89,7 @@ float GgxBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) c
 }
 
 float GgxBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return evaluate(to_light, to_viewer) * to_light.z;
+    return weigh(to_light, to_viewer).f_cos;
 }
 
 // [Heitz2018] Eq. 17, with G1(V)/cos_r = 2 / (cos_r + S(V))

@@ -36,6 +36,8 @@ float facets(const Bard &bard, float f0, const glm::vec2 &horizontal) {
     if (tilt <= kQuarterTurn)
         return shown_facets(bard, f0, tilt, azimuth);
     const float last = shown_facets(bard, f0, kQuarterTurn, azimuth);
+    if (!(last > 0))
+        return 0;
     const float before = shown_facets(bard, f0, kQuarterTurn - kSlopeSpan, azimuth);
     const float rate = std::log(before / last) / kSlopeSpan;
     const float held = std::clamp(rate, 1 / kLongestTail, 1 / kShortestTail);
@@ -83,7 +85,7 @@ void HalfVectorBrdf::tabulate_density() {
             total += mass.back();
         }
     for (double &m : mass)
-        m += kEvenShare * total / static_cast<double>(mass.size());
+        m += kEvenShare * (total > 0 ? total : 1.0) / static_cast<double>(mass.size());
     density_ = Distribution2D(mass, kDensityCells, kDensityCells);
 }
 

@@ -82,8 +82,9 @@ inline Pair pair_of(float lx, float ly, float lz, float vx, float vy, float vz) 
     const float cosine = least(most(along * over_level, -1.0f), 1.0f);
     const float sine = reach * over_level;
 
-    // Angles in quarter turns: the light's tilt, and beta between R and V
-    const float tilt = least(level * angle_over_sine(least(lz, 1.0f)), 1.0f);
+    // Angles in quarter turns: beta between R and V; the light's
+    // from the horizon, which keeps its precision at grazing
+    const float rest = most(lz * angle_over_sine(least(level, 1.0f)), 1e-7f), wide = 2 - rest;
     const float acute = sine * angle_over_sine(std::fabs(cosine));
     const float obtuse = 0.5f - std::copysign(0.5f, cosine); // 1 or 0
     const float beta = most(acute, obtuse * (2 - acute));
@@ -94,21 +95,22 @@ inline Pair pair_of(float lx, float ly, float lz, float vx, float vy, float vz) 
     const float facing = std::sqrt(0.5f * sum);
 
     // [Takeda] Eq. 15. Either branch is the lower one where it holds.
-    const float rest = most(1 - tilt, 1e-7f), wide = 1 + tilt;
     const float shared = 1 / (rest * wide * facing);
     const float towards = beta * (wide * facing * shared);
     const float behind = 2 - (2 - beta) * (rest * facing * shared);
     const float beta0 = most(least(towards, behind), 0.0f);
     const float cosine0 = -sine_of(beta0 - 1), sine0 = cosine_of(beta0 - 1);
 
-    // V0 = cos beta0 R + (sin beta0 / sin beta) (V - cos beta R)
+    // V0 = cos beta0 R + (sin beta0 / sin beta) (V - cos beta R), by its parts along R, across it
+    // and along N: a unit vector also where V is all but R
     const float ratio = sine0 * over_sine;
-    const float axis = -(cosine0 - ratio * cosine) * over_level;
+    const float side = ratio * across * over_level;
     const float over_facing = rest * wide * shared;
     const float scale = disk_scale(least(ratio * vz, 1.0f));
     const float half = 0.5f * over_facing; // 1 / |L + V|
-    return {(ratio * vx + axis * lx) * scale,
-            (ratio * vy + axis * ly) * scale,
+    const float level_scale = over_level * scale;
+    return {-(cosine0 * lx + side * ly) * level_scale,
+            (side * lx - cosine0 * ly) * level_scale,
             hz * over_facing * over_facing,
             least(facing, 1.0f),
             hx * half,

@@ -60,10 +60,9 @@ TEST(GreatCircle, MeetsThePrintedEquationInDouble) {
     EXPECT_LT(worst, 2e-5);
 }
 
-TEST(GreatCircle, InversesReturnToTheDirection) {
+TEST(GreatCircle, InverseReturnsToTheDirection) {
     Random random(2);
-    double worst_view = 0, worst_light = 0;
-    int lights = 0;
+    double worst_view = 0;
     for (int i = 0; i < kDraws; ++i) {
         const glm::vec3 light = random.direction(), view = random.direction();
         const GreatCircle c = to_basic(light, view);
@@ -71,40 +70,11 @@ TEST(GreatCircle, InversesReturnToTheDirection) {
         worst_view = std::max<double>(worst_view, glm::length(back.to_viewer - view));
         EXPECT_NEAR(back.slope, c.slope, near_the_fold(c, light) ? 100 : 1e-4 * c.slope);
         EXPECT_NEAR(back.sine_ratio, c.sine_ratio, 1e-3 * c.sine_ratio);
-        // Where light and view stand high V0 tells the light well
-        if (light.z < 0.1f || view.z < 0.1f)
-            continue;
-        const auto found = light_of_basic(view, c.basic);
-        ASSERT_TRUE(found);
-        worst_light = std::max<double>(worst_light, glm::length(*found - light));
-        ++lights;
     }
     EXPECT_LT(worst_view, 2e-5);
-    EXPECT_LT(worst_light, 5e-4);
-    EXPECT_GT(lights, kDraws / 2);
 }
 
-TEST(GreatCircle, BasicViewsThatNoLightGivesHaveNone) {
-    Random random(3);
-    int none = 0;
-    for (int i = 0; i < kDraws; ++i) {
-        const glm::vec3 view = random.direction(), basic = random.direction();
-        const auto light = light_of_basic(view, basic);
-        if (!light) {
-            ++none;
-            continue;
-        }
-        EXPECT_GT(light->z, 0);
-        EXPECT_NEAR(glm::length(*light), 1, 1e-5);
-        if (light->z > 0.1f && view.z > 0.1f) {
-            EXPECT_LT(glm::length(to_basic(*light, view).basic - basic), 1e-3f);
-        }
-    }
-    EXPECT_GT(none, kDraws / 10);
-    EXPECT_LT(none, kDraws * 7 / 10);
-}
-
-TEST(GreatCircle, JacobiansMeetDifferences) {
+TEST(GreatCircle, JacobianMeetsDifferences) {
     Random random(4);
     int tested = 0;
     for (int i = 0; i < kDraws / 4; ++i) {
@@ -117,27 +87,8 @@ TEST(GreatCircle, JacobiansMeetDifferences) {
             area_ratio([&](const glm::dvec3 &v) { return plain_basic(light, v); },
                        glm::normalize(glm::dvec3(view)));
         EXPECT_NEAR(c.sine_ratio * c.slope, of_view, 1e-3 * of_view);
-        const double of_light =
-            area_ratio([&](const glm::dvec3 &l) { return plain_basic(l, view); },
-                       glm::normalize(glm::dvec3(light)));
-        EXPECT_NEAR(jacobian_of_light(c, light, view), of_light, 2e-3 * of_light);
     }
     EXPECT_GT(tested, kDraws / 5);
-}
-
-TEST(GreatCircle, JacobianOfLightHasALimitAtTheNormal) {
-    const glm::vec3 view = direction(40, 70);
-    for (const double phi : {0.0, 100.0, 230.0}) {
-        const glm::dvec3 near = direction(0.5, phi);
-        const double expected =
-            area_ratio([&](const glm::dvec3 &l) { return plain_basic(l, view); }, near);
-        for (const double theta : {0.5, 0.06, 0.01, 0.0001}) {
-            const glm::vec3 light = direction(theta, phi);
-            EXPECT_NEAR(jacobian_of_light(to_basic(light, view), light, view), expected,
-                        0.02 * expected)
-                << theta << " " << phi;
-        }
-    }
 }
 
 TEST(GreatCircle, LightFromAboveIsTheIdentity) {
@@ -183,7 +134,7 @@ TEST(GreatCircle, OppositeViewAndLightStayFinite) {
             const GreatCircle g = to_basic(light, view);
             EXPECT_NEAR(glm::length(g.basic), 1, 1e-4) << theta << " " << phi;
             EXPECT_GE(g.basic.z, 0);
-            EXPECT_TRUE(std::isfinite(jacobian_of_light(g, light, view)));
+            EXPECT_TRUE(std::isfinite(g.sine_ratio) && std::isfinite(g.slope));
             EXPECT_NEAR(glm::length(view_of_basic(light, g.basic).to_viewer), 1, 1e-4);
         }
 }
