@@ -8,7 +8,7 @@ namespace tsuya {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kNodes = 97;  // about 1.9 degrees
+constexpr int kNodes = FilamentBed::kNodes;
 constexpr int kFlanks = 60; // parts of the half circle of a yarn's section
 // Distances of neighbouring axes over the diameter. Filaments: all between touching and this
 constexpr double kWidestFilaments = 1.2;
@@ -62,17 +62,6 @@ FilamentBed::FilamentBed(double flank) : value_(static_cast<std::size_t>(kNodes 
             value_[static_cast<std::size_t>(i * kNodes + j)] = value;
             value_[static_cast<std::size_t>(j * kNodes + i)] = value;
         }
-}
-
-float FilamentBed::at(float light, float viewer) const {
-    constexpr float kHalf = 0.5f * (kNodes - 1);
-    const float x = (light + 1) * kHalf, y = (viewer + 1) * kHalf;
-    const int i = std::clamp(static_cast<int>(x), 0, kNodes - 2);
-    const int j = std::clamp(static_cast<int>(y), 0, kNodes - 2);
-    const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);
-    const float *const row = &value_[static_cast<std::size_t>(i * kNodes + j)];
-    const float *const next = row + kNodes;
-    return (1 - s) * ((1 - t) * row[0] + t * row[1]) + s * ((1 - t) * next[0] + t * next[1]);
 }
 
 } // namespace tsuya

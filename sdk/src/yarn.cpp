@@ -121,10 +121,10 @@ float YarnBrdf::limit(const glm::vec3 &direction) const {
 float YarnBrdf::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
                                    const glm::vec3 &v) const {
     const glm::vec2 d = facets(half.half);
-    float sum = even_per_sr_ * l.z;
-    for (int axis = 0; axis < 2; ++axis)
-        sum += d[axis] * optics_.reach(axis, pit_[static_cast<std::size_t>(axis)], half, l, v)
-                             .times_cosine(l.z, v.z);
+    const float open = 1 / v.z, ratio = l.z * open;
+    const float sum = even_per_sr_ * l.z +
+                      d.x * optics_.reach<0>(pit_[0], half, l, v).times_cosine(open, ratio) +
+                      d.y * optics_.reach<1>(pit_[1], half, l, v).times_cosine(open, ratio);
     // The smaller of the two limits bounds the albedo of both directions and stays reciprocal
     return sum * std::min(limit(l), limit(v));
 }

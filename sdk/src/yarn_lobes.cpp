@@ -15,6 +15,7 @@ namespace tsuya {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+const glm::vec3 kUp(0, 0, 1); // to the light
 constexpr double kStep = 2 * kPi / 180;
 constexpr int kMiddle = kYarnSlopes / 2;
 constexpr std::array<double, 6> kRoughness = {0.03, 0.045, 0.06, 0.08, 0.1, 0.13};
@@ -66,7 +67,7 @@ Fit::Fit(const Bard &bard, double f0)
         const double z = std::max(directions[i].z, 1e-4); // a view on the horizon weighs nothing
         const glm::vec3 d(directions[i].x, directions[i].y, z);
         views_.push_back(
-            {d, bard.views()[i].brdf_per_sr, std::sqrt(area[i]) * z, optics_.half({0, 0, 1}, d)});
+            {d, bard.views()[i].brdf_per_sr, std::sqrt(area[i]) * z, optics_.half(kUp, d)});
     }
     target_.resize(static_cast<Eigen::Index>(views_.size()));
     for (std::size_t i = 0; i < views_.size(); ++i)
@@ -96,11 +97,13 @@ Eigen::MatrixXd Fit::basis(const Eigen::MatrixXd &lobes, const std::array<double
     Eigen::MatrixXd b(lobes.rows(), lobes.cols() + 1);
     for (Eigen::Index i = 0; i < b.rows(); ++i) {
         const View &view = views_[static_cast<std::size_t>(i)];
+        const std::array<YarnReach, 2> reach = {
+            optics_.reach<0>(static_cast<float>(pit[0]), view.half, kUp, view.direction),
+            optics_.reach<1>(static_cast<float>(pit[1]), view.half, kUp, view.direction)};
+        const float open = 1 / view.direction.z;
         for (int axis = 0; axis < 2; ++axis) {
-            const YarnReach reach =
-                optics_.reach(axis, static_cast<float>(pit[static_cast<std::size_t>(axis)]),
-                              view.half, {0, 0, 1}, view.direction);
-            const double value = view.weight * reach.times_cosine(1, view.direction.z);
+            const double value =
+                view.weight * reach[static_cast<std::size_t>(axis)].times_cosine(open, open);
             b.row(i).segment(axis * count, count) =
                 value * lobes.row(i).segment(axis * count, count);
         }
