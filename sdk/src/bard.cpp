@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include <Eigen/Dense>
+#include <tbb/parallel_for.h>
 
 #include "tsuya/sdk/error.h"
 
@@ -45,6 +46,120 @@ bool is_same_view(glm::dvec2 a, glm::dvec2 b, Symmetry symmetry) {
     const auto image = images(a.x, a.y, symmetry, count);
     return std::any_of(image.begin(), image.begin() + count,
                        [&](glm::dvec2 p) { return glm::length(p - b) < kSameView; });
+}
+
+// What the surface is fitted to: one point of the disk for each distinct view.
+struct Points {
+    std::vector<glm::dvec2> at{};
+    std::vector<double> value{}; // log rho less its mean
+    const std::vector<double> &relative_sigma;
+    Symmetry symmetry;
+};
+
+struct Solution {
+    Eigen::VectorXd weight{};
+    double error = std::numeric_limits<double>::infinity();
+};
+
+// The kernels of all nodes at all nodes, mirrored with the symmetry; the lower half.
+Eigen::MatrixXd kernels(const Points &points, const BardSmoothness &s) {
+    const auto n = static_cast<Eigen::Index>(points.at.size());
+    Eigen::ArrayXd x(n), y(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        x[i] = points.at[static_cast<std::size_t>(i)].x / s.weft_support;
+        y[i] = points.at[static_cast<std::size_t>(i)].y / s.warp_support;
+    }
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        int count = 0;
+        const auto image = images(x[i], y[i], points.symmetry, count);
+        double *const column = &k(0, i);
+        for (int g = 0; g < count; ++g) {
+            const glm::dvec2 p = image[static_cast<std::size_t>(g)];
+            for (Eigen::Index j = i; j < n; ++j)
+                column[j] += kernel(p.x - x[j], p.y - y[j]);
+        }
+    }
+    return k;
+}
+
+// The weights of the nodes for the kernels, and the mean squared leave-one-out error of log rho if
+// that is asked for.
+Solution solve(const Points &points, Eigen::MatrixXd k, double noise_share, bool with_error) {
+    const Eigen::Index n = k.rows();
+    const auto y = Eigen::Map<const Eigen::VectorXd>(points.value.data(), n);
+    const double variance = std::max(y.squaredNorm() / static_cast<double>(n), 1e-12);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double sigma = points.relative_sigma[static_cast<std::size_t>(i)];
+        k(i, i) += std::max(noise_share, sigma * sigma / variance);
+    }
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(k); // in place
+    Solution solution{.weight = factor.solve(y)};
+    if (!with_error)
+        return solution;
+    // Columns of the inverse of the factor, which has nothing above its diagonal: the diagonal of
+    // the inverse of k is their squares. Leave-one-out residual of a linear smoother, [Rasmussen]
+    // Eq. 5.12
+    constexpr Eigen::Index kColumns = 48;
+    solution.error = 0;
+    for (Eigen::Index begin = 0; begin < n; begin += kColumns) {
+        const Eigen::Index rows = n - begin, columns = std::min(kColumns, rows);
+        Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(rows, columns);
+        k.bottomRightCorner(rows, rows).triangularView<Eigen::Lower>().solveInPlace(inverse);
+        solution.error += (solution.weight.segment(begin, columns).array() /
+                           inverse.colwise().squaredNorm().transpose().array())
+                              .square()
+                              .sum() /
+                          static_cast<double>(n);
+    }
+    if (!std::isfinite(solution.error))
+        solution.error = std::numeric_limits<double>::infinity();
+    return solution;
+}
+
+// The smoothness with the least leave-one-out error of those tried, and its weights.
+struct Search {
+    BardSmoothness smoothness{};
+    Solution best{};
+
+    // Tries some at once; of equals the first is taken.
+    void attempt(const Points &points, const std::vector<BardSmoothness> &some) {
+        const bool one_shape = std::all_of(some.begin(), some.end(), [&](const BardSmoothness &s) {
+            return s.weft_support == some[0].weft_support && s.warp_support == some[0].warp_support;
+        });
+        const Eigen::MatrixXd shared = one_shape ? kernels(points, some[0]) : Eigen::MatrixXd();
+        std::vector<Solution> solutions(some.size());
+        tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+            solutions[i] = solve(points, one_shape ? shared : kernels(points, some[i]),
+                                 some[i].noise_share, true);
+        });
+        for (std::size_t i = 0; i < some.size(); ++i)
+            if (solutions[i].error < best.error) {
+                best = std::move(solutions[i]);
+                smoothness = some[i];
+            }
+    }
+};
+
+// One support for both axes, then each axis by itself, then the noise.
+Search search(const Points &points) {
+    constexpr double kLittle = 1e-6;
+    Search found;
+    std::vector<BardSmoothness> some;
+    for (const double support : {0.25, 0.5, 1.0, 2.0, 4.0})
+        some.push_back({support, support, kLittle});
+    found.attempt(points, some);
+    const double weft = found.smoothness.weft_support, warp = found.smoothness.warp_support;
+    found.attempt(points, {{weft / 2, warp, kLittle},
+                           {weft, warp / 2, kLittle},
+                           {weft * 2, warp, kLittle},
+                           {weft, warp * 2, kLittle}});
+    const BardSmoothness shaped = found.smoothness;
+    some.clear();
+    for (const double noise : {1e-5, 1e-4, 1e-3, 1e-2})
+        some.push_back({shaped.weft_support, shaped.warp_support, noise});
+    found.attempt(points, some);
+    return found;
 }
 
 } // namespace
@@ -106,44 +221,7 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
         mean_log_ += v / static_cast<double>(log_value_.size());
 }
 
-// Sets the weights of the nodes; returns the mean squared leave-one-out error of log rho.
-double Bard::solve(const BardSmoothness &s) {
-    const auto n = static_cast<Eigen::Index>(nodes_.size());
-    Eigen::MatrixXd k(n, n);
-    Eigen::VectorXd y(n);
-    int count = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const Node &a = nodes_[static_cast<std::size_t>(i)];
-        const auto image = images(a.x, a.y, symmetry_, count);
-        y[i] = log_value_[static_cast<std::size_t>(i)] - mean_log_;
-        for (Eigen::Index j = 0; j <= i; ++j) {
-            const Node &b = nodes_[static_cast<std::size_t>(j)];
-            double sum = 0;
-            for (int g = 0; g < count; ++g)
-                sum += kernel((image[static_cast<std::size_t>(g)].x - b.x) / s.weft_support,
-                              (image[static_cast<std::size_t>(g)].y - b.y) / s.warp_support);
-            k(i, j) = k(j, i) = sum;
-        }
-    }
-    const double variance = std::max(y.squaredNorm() / static_cast<double>(n), 1e-12);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const double sigma = relative_sigma_[static_cast<std::size_t>(i)];
-        k(i, i) += std::max(s.noise_share, sigma * sigma / variance);
-    }
-    const Eigen::LLT<Eigen::MatrixXd> factor(k);
-    const Eigen::VectorXd weight = factor.solve(y);
-    const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(n, n));
-    double error = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        nodes_[static_cast<std::size_t>(i)].weight = weight[i];
-        // Leave-one-out residual of a linear smoother, [Rasmussen] Eq. 5.12
-        error += std::pow(weight[i] / inverse(i, i), 2) / static_cast<double>(n);
-    }
-    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
-}
-
 void Bard::finish() {
-    solve(smoothness_);
     int count = 0;
     for (const Node &n : nodes_) {
         const auto image = images(n.x, n.y, symmetry_, count);
@@ -159,34 +237,32 @@ void Bard::finish() {
 
 Bard Bard::fit(const ReflectanceTable &table, const BardSmoothness &smoothness,
                const std::string &where) {
-    Bard bard;
-    bard.take_views(table, where);
-    bard.smoothness_ = smoothness;
-    bard.finish();
-    return bard;
+    return fit(table, &smoothness, where);
 }
 
 Bard Bard::fit(const ReflectanceTable &table, const std::string &where) {
+    return fit(table, nullptr, where);
+}
+
+Bard Bard::fit(const ReflectanceTable &table, const BardSmoothness *smoothness,
+               const std::string &where) {
     Bard bard;
     bard.take_views(table, where);
-    double best_error = std::numeric_limits<double>::infinity();
-    const auto attempt = [&](BardSmoothness s) {
-        if (const double error = bard.solve(s); error < best_error) {
-            best_error = error;
-            bard.smoothness_ = s;
-        }
-    };
-    // One support for both axes, then each axis by itself, then the noise
-    for (const double support : {0.25, 0.5, 1.0, 2.0, 4.0})
-        attempt({support, support, 1e-6});
-    const BardSmoothness round = bard.smoothness_;
-    for (const double ratio : {0.5, 2.0}) {
-        attempt({round.weft_support * ratio, round.warp_support, round.noise_share});
-        attempt({round.weft_support, round.warp_support * ratio, round.noise_share});
+    Points points{.relative_sigma = bard.relative_sigma_, .symmetry = bard.symmetry_};
+    for (std::size_t i = 0; i < bard.nodes_.size(); ++i) {
+        points.at.emplace_back(bard.nodes_[i].x, bard.nodes_[i].y);
+        points.value.push_back(bard.log_value_[i] - bard.mean_log_);
     }
-    const BardSmoothness shaped = bard.smoothness_;
-    for (const double noise : {1e-5, 1e-4, 1e-3, 1e-2})
-        attempt({shaped.weft_support, shaped.warp_support, noise});
+    Search found;
+    if (smoothness) {
+        found.smoothness = *smoothness;
+        found.best = solve(points, kernels(points, *smoothness), smoothness->noise_share, false);
+    } else {
+        found = search(points);
+    }
+    bard.smoothness_ = found.smoothness;
+    for (std::size_t i = 0; i < bard.nodes_.size(); ++i)
+        bard.nodes_[i].weight = found.best.weight[static_cast<Eigen::Index>(i)];
     bard.finish();
     return bard;
 }

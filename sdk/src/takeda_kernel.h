@@ -15,50 +15,36 @@ namespace tsuya::kernel {
 inline float least(float a, float b) { return a < b ? a : b; }
 inline float most(float a, float b) { return a > b ? a : b; }
 
-// acos(x) / sqrt(1 - x^2) in quarter turns, x in [0, 1]; relative error 2e-7. This and the others
-// are polynomials of least relative error.
+// Polynomials of least relative error, summed in pairs: a chain of products would be waited for.
+
+// acos(x) / sqrt(1 - x^2) in quarter turns, x in [0, 1]; relative error 2e-7
 inline float angle_over_sine(float x) {
-    float p = 0.0111258927f;
-    p = p * x - 0.0619147639f;
-    p = p * x + 0.160473212f;
-    p = p * x - 0.269652571f;
-    p = p * x + 0.354310567f;
-    p = p * x - 0.420785073f;
-    p = p * x + 0.499670623f;
-    p = p * x - 0.636608f;
-    return p * x + 0.99999993f;
+    const float x2 = x * x, x4 = x2 * x2;
+    const float low = (0.99999993f - 0.636608f * x) + (0.499670623f - 0.420785073f * x) * x2;
+    const float high = (0.354310567f - 0.269652571f * x) + (0.160473212f - 0.0619147639f * x) * x2;
+    return low + (high + 0.0111258927f * x4) * x4;
 }
 
 // sin of d quarter turns, d in [-1, 1]; 2e-7
 inline float sine_of(float d) {
-    const float q = d * d;
-    float p = 0.00015148513f;
-    p = p * q - 0.00467376661f;
-    p = p * q + 0.0796896789f;
-    p = p * q - 0.645963711f;
-    return d * (p * q + 1.57079632f);
+    const float q = d * d, q2 = q * q;
+    const float low = 1.57079632f - 0.645963711f * q, high = 0.0796896789f - 0.00467376661f * q;
+    return d * (low + (high + 0.00015148513f * q2) * q2);
 }
 
 // cos of d quarter turns, d in [-1, 1]; 1e-7, also where it vanishes
 inline float cosine_of(float d) {
-    const float q = d * d;
-    float p = 2.35839046e-05f;
-    p = p * q - 0.000893502661f;
-    p = p * q + 0.0199685861f;
-    p = p * q - 0.233700502f;
-    return (1 - d) * (1 + d) * (p * q + 1.0f);
+    const float q = d * d, q2 = q * q;
+    const float low = 1.0f - 0.233700502f * q, high = 0.0199685861f - 0.000893502661f * q;
+    return (1 - d) * (1 + d) * (low + (high + 2.35839046e-05f * q2) * q2);
 }
 
 // 1 / sqrt(1 + z), z in [0, 1]; 4e-7
 inline float disk_scale(float z) {
-    float p = -0.0125989583f;
-    p = p * z + 0.0638943247f;
-    p = p * z - 0.151492232f;
-    p = p * z + 0.237753768f;
-    p = p * z - 0.304589747f;
-    p = p * z + 0.37409959f;
-    p = p * z - 0.499959877f;
-    return p * z + 0.999999701f;
+    const float z2 = z * z;
+    const float low = (0.999999701f - 0.499959877f * z) + (0.37409959f - 0.304589747f * z) * z2;
+    const float high = (0.237753768f - 0.151492232f * z) + (0.0638943247f - 0.0125989583f * z) * z2;
+    return low + high * (z2 * z2);
 }
 
 struct Pair {

@@ -59,8 +59,9 @@ class Bard {
         double x, y, weight;
     };
     Bard() = default;
+    static Bard fit(const ReflectanceTable &table, const BardSmoothness *smoothness,
+                    const std::string &where);
     void take_views(const ReflectanceTable &table, const std::string &where);
-    double solve(const BardSmoothness &smoothness);
     void finish();
     double log_at(double x, double y) const;
 
