@@ -199,8 +199,10 @@ double yarn_lobe(int axis, double slope, double roughness, const glm::dvec3 &hal
 }
 
 YarnLobes fit_yarn_lobes(const Bard &bard, double f0) {
+    YarnLobes best{.f0 = checked_f0(f0)};
+    if (!(bard.peak() > 0))
+        return best; // black: nothing is on any slope
     const Fit fit(bard, f0);
-    YarnLobes best;
     double least = std::numeric_limits<double>::infinity();
     for (const double roughness : kRoughness) {
         YarnLobes lobes{.f0 = f0, .roughness = roughness};

@@ -65,6 +65,7 @@ std::vector<Stressed> make_models() {
     const auto add = [&](const char *name, const Bard &bard, double f0) {
         all.push_back({std::string("takeda, ") + name, TakedaBrdf(bard, f0)});
         all.push_back({std::string("half_vector, ") + name, HalfVectorBrdf(bard, f0)});
+        all.push_back({std::string("yarn, ") + name, YarnBrdf(bard, f0)});
     };
     add("f0 of 0.0001", *fabric.bard, 1e-4);
     add("f0 of 1", bard_of(narrow_cloth()), 1);
