@@ -237,15 +237,15 @@ void Bard::finish() {
 
 Bard Bard::fit(const ReflectanceTable &table, const BardSmoothness &smoothness,
                const std::string &where) {
-    return fit(table, &smoothness, where);
+    return fit_with(&smoothness, table, where);
 }
 
 Bard Bard::fit(const ReflectanceTable &table, const std::string &where) {
-    return fit(table, nullptr, where);
+    return fit_with(nullptr, table, where);
 }
 
-Bard Bard::fit(const ReflectanceTable &table, const BardSmoothness *smoothness,
-               const std::string &where) {
+Bard Bard::fit_with(const BardSmoothness *smoothness, const ReflectanceTable &table,
+                    const std::string &where) {
     Bard bard;
     bard.take_views(table, where);
     Points points{.relative_sigma = bard.relative_sigma_, .symmetry = bard.symmetry_};

@@ -5,6 +5,7 @@
 #include "takeda_kernel.h"
 
 #include <algorithm>
+#include <cstring>
 
 // The sanitizers start after the choice would be made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
@@ -20,57 +21,50 @@ namespace {
 
 constexpr std::size_t kWide = 16, kNarrow = 8;
 
-// Coordinates apart, so that one vector holds the same coordinate of many directions.
-template <std::size_t kSize> struct Block {
-    alignas(64) float lx[kSize], ly[kSize], lz[kSize];
-    alignas(64) float vx[kSize], vy[kSize], vz[kSize];
-    alignas(64) float f_cos[kSize];
-};
-
+// As many pairs as fill one vector. Directions are read as the floats that they are: three at a
+// time is what the compiler knows to spread over vectors.
 template <std::size_t kSize>
-inline void evaluate_block(const DiskTable &table, float f0, Block<kSize> &b) {
-    alignas(64) float k[kSize], facing[kSize], s[kSize], t[kSize];
+inline void evaluate_block(const DiskTable &table, float f0, const float *light, const float *view,
+                           float *f_cos) {
+    alignas(64) float k[kSize], facing[kSize], s[kSize], t[kSize], lz[kSize], vz[kSize];
     alignas(64) std::uint32_t index[kSize];
     for (std::size_t i = 0; i < kSize; ++i) {
-        const Pair p = pair_of(b.lx[i], b.ly[i], b.lz[i], b.vx[i], b.vy[i], b.vz[i]);
+        const float *const l = light + 3 * i, *const v = view + 3 * i;
+        const Pair p = pair_of(l[0], l[1], l[2], v[0], v[1], v[2]);
         const DiskTable::Cell cell = table.cell_of(p.x, p.y);
         k[i] = p.k;
         facing[i] = p.facing;
+        lz[i] = l[2];
+        vz[i] = v[2];
         index[i] = cell.index;
         s[i] = cell.s;
         t[i] = cell.t;
     }
-    alignas(64) float corner[4][kSize];
+    // Two neighbours in one move
+    alignas(64) float row[kSize][2], next[kSize][2];
     const float *const data = table.data();
     const auto nodes = static_cast<std::size_t>(table.nodes());
     for (std::size_t i = 0; i < kSize; ++i) {
-        const float *const at = data + index[i];
-        corner[0][i] = at[0];
-        corner[1][i] = at[1];
-        corner[2][i] = at[nodes];
-        corner[3][i] = at[nodes + 1];
+        std::memcpy(row[i], data + index[i], sizeof row[i]);
+        std::memcpy(next[i], data + index[i] + nodes, sizeof next[i]);
     }
     for (std::size_t i = 0; i < kSize; ++i) {
-        const float value = (1 - t[i]) * ((1 - s[i]) * corner[0][i] + s[i] * corner[1][i]) +
-                            t[i] * ((1 - s[i]) * corner[2][i] + s[i] * corner[3][i]);
-        const float f_cos =
-            times_cosine(value, f0, {0, 0, k[i], facing[i], 0, 0}, b.lz[i], b.vz[i]);
-        b.f_cos[i] = least(b.lz[i], b.vz[i]) > 0 ? f_cos : 0.0f;
+        const float value = (1 - t[i]) * ((1 - s[i]) * row[i][0] + s[i] * row[i][1]) +
+                            t[i] * ((1 - s[i]) * next[i][0] + s[i] * next[i][1]);
+        const float result = times_cosine(value, f0, {0, 0, k[i], facing[i], 0, 0}, lz[i], vz[i]);
+        f_cos[i] = least(lz[i], vz[i]) > 0 ? result : 0.0f;
     }
 }
 
+// Fewer than fill a vector
 template <std::size_t kSize>
-inline void evaluate_some(const DiskTable &table, float f0, const glm::vec3 *to_light,
-                          const glm::vec3 *to_viewer, float *f_cos, std::size_t count) {
-    Block<kSize> b;
-    if (count < kSize)
-        b = {};
-    for (std::size_t i = 0; i < count; ++i) {
-        b.lx[i] = to_light[i].x, b.ly[i] = to_light[i].y, b.lz[i] = to_light[i].z;
-        b.vx[i] = to_viewer[i].x, b.vy[i] = to_viewer[i].y, b.vz[i] = to_viewer[i].z;
-    }
-    evaluate_block(table, f0, b);
-    std::copy_n(b.f_cos, count, f_cos);
+inline void evaluate_rest(const DiskTable &table, float f0, const float *light, const float *view,
+                          float *f_cos, std::size_t count) {
+    float lights[3 * kSize] = {}, views[3 * kSize] = {}, results[kSize];
+    std::copy_n(light, 3 * count, lights);
+    std::copy_n(view, 3 * count, views);
+    evaluate_block<kSize>(table, f0, lights, views, results);
+    std::copy_n(results, count, f_cos);
 }
 
 } // namespace
@@ -87,13 +81,16 @@ Evaluated evaluate(const DiskTable &table, float f0, const glm::vec3 &to_light,
 TSUYA_FOR_EVERY_PROCESSOR
 void evaluate(const DiskTable &table, float f0, const glm::vec3 *to_light,
               const glm::vec3 *to_viewer, float *f_cos, std::size_t count) {
-    std::size_t done = 0;
-    for (; done + kNarrow < count; done += kWide)
-        evaluate_some<kWide>(table, f0, to_light + done, to_viewer + done, f_cos + done,
-                             std::min(kWide, count - done));
-    if (done < count)
-        evaluate_some<kNarrow>(table, f0, to_light + done, to_viewer + done, f_cos + done,
-                               count - done);
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    const float *light = &to_light->x, *view = &to_viewer->x;
+    for (; count >= kWide; count -= kWide, light += 3 * kWide, view += 3 * kWide, f_cos += kWide)
+        evaluate_block<kWide>(table, f0, light, view, f_cos);
+    if (count == kNarrow)
+        evaluate_block<kNarrow>(table, f0, light, view, f_cos);
+    else if (count > kNarrow)
+        evaluate_rest<kWide>(table, f0, light, view, f_cos, count);
+    else if (count > 0)
+        evaluate_rest<kNarrow>(table, f0, light, view, f_cos, count);
 }
 
 } // namespace tsuya::kernel

@@ -59,8 +59,8 @@ class Bard {
         double x, y, weight;
     };
     Bard() = default;
-    static Bard fit(const ReflectanceTable &table, const BardSmoothness *smoothness,
-                    const std::string &where);
+    static Bard fit_with(const BardSmoothness *smoothness, const ReflectanceTable &table,
+                         const std::string &where);
     void take_views(const ReflectanceTable &table, const std::string &where);
     void finish();
     double log_at(double x, double y) const;
