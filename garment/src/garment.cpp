@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "load_steps.h"
 #include "tsuya/garment/check.h"
 #include "tsuya/garment/mesh_file.h"
 #include "tsuya/sdk/error.h"
@@ -109,8 +110,15 @@ double metres_per(std::string_view unit) {
                  accepted_names(unit, names)});
 }
 
-LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
-                   const Progress &progress) {
+std::vector<Finding> use_hints(const std::vector<FabricHint> &hints, FrameOptions &frames) {
+    std::vector<Finding> findings;
+    for (const FabricHint &hint : hints)
+        use_hint(hint, frames, findings);
+    return findings;
+}
+
+LoadSteps load_steps(const PolygonMesh &mesh, const Options &options, const std::string &where,
+                     const Progress &progress) {
     check_options(options, where);
     return naming(where, [&] {
         check_indices(mesh, where);
@@ -121,20 +129,22 @@ LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::s
         progress("garment: join seams", 0.0);
         Prepared prepared = prepare(metres, options.seams);
         stop_here(progress);
-        LoadedGarment out;
-        out.report = std::move(prepared.report);
-        out.report.metres_per_uv = choose_uv_scale(options, out.report);
+        prepared.report.metres_per_uv = choose_uv_scale(options, prepared.report);
         if (!options.want_frames) {
             prepared.mesh.uv.clear();
             std::fill(prepared.mesh.corner_uv.begin(), prepared.mesh.corner_uv.end(), -1);
         }
-        const LimitMesh limit = subdivide(prepared.mesh, options.subdivide, progress);
-        FrameOptions frames = options.frames;
-        frames.metres_per_uv = out.report.metres_per_uv;
+        LoadSteps steps{.subdivider = Subdivider(std::move(prepared.mesh), options.subdivide),
+                        .recipe = std::move(prepared.positions),
+                        .frames = options.frames};
+        steps.frames.metres_per_uv = prepared.report.metres_per_uv;
         if (!options.want_frames)
-            frames.invented_grain.reset();
+            steps.frames.invented_grain.reset();
+        const LimitMesh limit = steps.subdivider.evaluate(progress);
         FrameReport frame_report;
-        out.surface = add_frames(limit, frames, frame_report, where);
+        LoadedGarment &out = steps.garment;
+        out.surface = add_frames(limit, steps.frames, frame_report, where);
+        out.report = std::move(prepared.report);
         out.report.limit_points = out.surface.position.size();
         out.report.limit_triangles = out.surface.triangle.size();
         out.report.repaired_normals = limit.repaired_normals;
@@ -144,16 +154,19 @@ LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::s
         if (options.strict)
             refuse_warnings(out.report, where);
         check_surface(out.surface, where);
-        return out;
+        return steps;
     });
+}
+
+LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
+                   const Progress &progress) {
+    return load_steps(mesh, options, where, progress).garment;
 }
 
 LoadedGarment load(const MeshFile &file, const Options &options, const std::string &where,
                    const Progress &progress) {
     Options with_hints = options;
-    std::vector<Finding> findings;
-    for (const FabricHint &hint : file.hints)
-        use_hint(hint, with_hints.frames, findings);
+    const std::vector<Finding> findings = use_hints(file.hints, with_hints.frames);
     LoadedGarment out = load(file.mesh, with_hints, where, progress);
     out.hints = file.hints;
     out.report.findings.insert(out.report.findings.end(), findings.begin(), findings.end());

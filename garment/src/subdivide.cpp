@@ -8,6 +8,7 @@
 
 #include "fans.h"
 #include "limit_numbering.h"
+#include "limit_stencils.h"
 #include "limit_surface.h"
 #include "tessellation_rates.h"
 #include "tsuya/sdk/error.h"
@@ -77,20 +78,43 @@ struct Subdivider::State {
         out.position[vertex] = surface.centre() + sample.p;
         if (!out.uv.empty())
             out.uv[vertex] = glm::vec2(sample.t);
-        glm::dvec3 n;
-        if (!sample.normal(n)) {
-            // Tangents vanish at a cusp or pole: look a little further inside the face.
-            ++worker.repaired_normals;
+        glm::dvec3 n, dp_du, dp_dv;
+        const bool has_uv = worker.scratch.has_uv;
+        const bool has_normal = sample.normal(n);
+        if (!has_normal || (has_uv && !sample.cloth(dp_du, dp_dv))) {
+            // Tangents vanish at a cusp or pole, and UVs at a T-junction, whose corner is straight:
+            // look a little further inside the face.
+            worker.repaired_normals += !has_normal;
             sample = surface.sample(surface.nudged(at, worker.scratch), worker.scratch);
             if (!sample.normal(n))
                 n = any_normal(mesh, face);
         }
         out.normal[vertex] = glm::vec3(n);
         out.panel[vertex] = mesh.face_panel[face];
-        glm::dvec3 dp_du, dp_dv;
-        if (worker.scratch.has_uv && sample.cloth(dp_du, dp_dv)) {
+        if (has_uv && sample.cloth(dp_du, dp_dv)) {
             out.dp_du[vertex] = glm::vec3(dp_du);
             out.dp_dv[vertex] = glm::vec3(dp_dv);
+        }
+    }
+
+    /// Frames after the first: weighted sums, and what no frame changes.
+    LimitMesh next_frame() {
+        if (!stencils) {
+            stencils.emplace(surface, patterns, numbering);
+            first = evaluate({});
+        }
+        LimitMesh out = *first;
+        stencils->apply(mesh, surface.centre(), out);
+        close_seams(out);
+        return out;
+    }
+
+    /// Both sides of a seam take the position of the first, so that no crack can open.
+    void close_seams(LimitMesh &out) const {
+        for (std::size_t v = 0; v < out.place.size(); ++v) {
+            out.position[v] = out.position[out.place[v]];
+            if (crease < kInfinitelySharp)
+                out.normal[v] = out.normal[out.place[v]];
         }
     }
 
@@ -112,12 +136,7 @@ struct Subdivider::State {
             throw Interrupted("stopped while subdividing");
         for (const Worker &worker : workers)
             out.repaired_normals += worker.repaired_normals;
-        // Both sides of a seam take the position of the first, so that no crack can open.
-        for (std::size_t v = 0; v < vertices; ++v) {
-            out.position[v] = out.position[out.place[v]];
-            if (crease < kInfinitelySharp)
-                out.normal[v] = out.normal[out.place[v]];
-        }
+        close_seams(out);
         progress("subdivide", 1.0);
         return out;
     }
@@ -129,6 +148,8 @@ struct Subdivider::State {
     FacePatterns patterns;
     LimitNumbering numbering;
     LimitMesh fixed; ///< what no frame changes
+    std::optional<LimitStencils> stencils;
+    std::optional<LimitMesh> first;
 };
 
 Subdivider::Subdivider(PolygonMesh mesh, const SubdivideOptions &options)
@@ -139,7 +160,9 @@ Subdivider &Subdivider::operator=(Subdivider &&) noexcept = default;
 
 LimitMesh Subdivider::evaluate(const Progress &progress) { return state_->evaluate(progress); }
 
-LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions, const Progress &progress) {
+void Subdivider::expect_frames() { state_->next_frame(); }
+
+LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions) {
     if (positions.size() != state_->mesh.position.size())
         throw Error({std::to_string(positions.size()) + " positions for " +
                          std::to_string(state_->mesh.position.size()) + " vertices",
@@ -147,7 +170,7 @@ LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions, const P
     state_->mesh.position = positions;
     check_indices(state_->mesh, "mesh");
     state_->surface.set_positions(positions);
-    return state_->evaluate(progress);
+    return state_->next_frame();
 }
 
 LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options,

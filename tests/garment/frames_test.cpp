@@ -1,8 +1,12 @@
+#include <random>
+
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "test_meshes.h"
 #include "tsuya/garment/frames.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/frame.h"
 
 namespace tsuya::garment {
 namespace {
@@ -83,6 +87,135 @@ TEST(Frames, ErrorsOnASphereFallWithTheSquareOfTheSpacing) {
     EXPECT_LT(fine, 0.1 * kDegree);
     EXPECT_GT(coarse / fine, 3.0);
     EXPECT_LT(coarse / fine, 5.0);
+}
+
+/// A sheet over (u, v) in [-1, 1]^2 with known derivatives.
+struct Sheet {
+    glm::dvec3 (*at)(double u, double v);
+    glm::dvec3 (*d_u)(double u, double v);
+    glm::dvec3 (*d_v)(double u, double v);
+};
+
+/// Warp turns by up to 1 radian along the sheet.
+const Sheet kTwisted{
+    [](double u, double v) { return glm::dvec3(u, v * std::cos(u), v * std::sin(u)); },
+    [](double u, double v) { return glm::dvec3(1, -v * std::sin(u), v * std::cos(u)); },
+    [](double u, double) { return glm::dvec3(0, std::cos(u), std::sin(u)); }};
+/// Warp leans over weft by an angle that grows with v, on a wave.
+const Sheet kSheared{
+    [](double u, double v) { return glm::dvec3(u + 0.3 * v * v, v, 0.2 * std::sin(2 * u)); },
+    [](double u, double) { return glm::dvec3(1, 0, 0.4 * std::cos(2 * u)); },
+    [](double, double v) { return glm::dvec3(0.6 * v, 1, 0); }};
+
+struct SheetErrors {
+    double position = 0, warp = 0, shear = 0;
+};
+
+/// Largest errors away from the hems. \param turn about (1, 1, 1), radians
+SheetErrors sheet_errors(const Sheet &sheet, int n, double scale, double turn,
+                         const glm::dvec3 &shift) {
+    const glm::dmat3 rotation(glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(1, 1, 1)));
+    const auto moved = [&](const glm::dvec3 &p) { return scale * (rotation * p) + shift; };
+    const double step = 2.0 / n;
+    const Surface s = surface_of(test::grid(
+        n, n, false, false, glm::dvec2(step),
+        [&](int i, int j) { return moved(sheet.at(step * i - 1, step * j - 1)); }, glm::dvec2(-1)));
+    SheetErrors worst;
+    for (std::size_t i = 0; i < s.position.size(); ++i) {
+        const double u = s.uv[i].x, v = s.uv[i].y;
+        if (std::abs(u) > 0.8 || std::abs(v) > 0.8)
+            continue;
+        const glm::dvec3 d_u = rotation * sheet.d_u(u, v), d_v = rotation * sheet.d_v(u, v);
+        worst.position =
+            std::max(worst.position, glm::distance(s.position[i], moved(sheet.at(u, v))) / scale);
+        worst.warp = std::max(worst.warp, angle_between(d_v, glm::dvec3(s.warp[i])));
+        worst.shear = std::max(
+            worst.shear, std::abs(angle_between(d_u, d_v) -
+                                  angle_between(glm::dvec3(s.weft[i]), glm::dvec3(s.warp[i]))));
+    }
+    return worst;
+}
+
+TEST(Frames, ErrorsOnTwistedAndShearedSheetsFallWithTheSquareOfTheSpacing) {
+    for (const Sheet &sheet : {kTwisted, kSheared}) {
+        const SheetErrors coarse = sheet_errors(sheet, 40, 1, 0, glm::dvec3(0)),
+                          fine = sheet_errors(sheet, 80, 1, 0, glm::dvec3(0));
+        EXPECT_LT(fine.warp, 0.1 * kDegree); // 40 quads a metre
+        EXPECT_LT(fine.shear, 0.1 * kDegree);
+        for (const auto &[a, b] : {std::pair(coarse.position, fine.position),
+                                   {coarse.warp, fine.warp},
+                                   {coarse.shear, fine.shear}})
+            if (b > 1e-6) { // what is exact stays so, but for rounding of floats
+                EXPECT_GT(a / b, 3.0);
+                EXPECT_LT(a / b, 5.0);
+            }
+    }
+}
+
+TEST(Frames, ErrorsDoNotDependOnWhereASheetLiesNorOnItsSize) {
+    for (const Sheet &sheet : {kTwisted, kSheared}) {
+        const SheetErrors at_home = sheet_errors(sheet, 40, 1, 0, glm::dvec3(0));
+        for (const double scale : {1e-3, 1.0, 1e5})
+            for (const double shift : {0.0, 1e6}) {
+                const SheetErrors away = sheet_errors(sheet, 40, scale, 0.7, glm::dvec3(shift));
+                // Doubles hold a place 1e6 m away to 1e-10 m: of a sheet of a millimetre, 1e-7.
+                const double rounding = 1e-6 + 1e-15 * shift / scale;
+                EXPECT_NEAR(away.position, at_home.position, rounding);
+                EXPECT_NEAR(away.warp, at_home.warp, 100 * rounding);
+                EXPECT_NEAR(away.shear, at_home.shear, 100 * rounding);
+            }
+    }
+}
+
+TEST(Frames, InterpolatedFramesStayOrthonormal) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> any(0, 1);
+    for (const PolygonMesh &mesh : {test::Torus().mesh(8), test::panel(4, 4, 0.1)}) {
+        const Surface s = surface_of(mesh, {.default_grain = 0.4});
+        for (const glm::uvec3 &t : s.triangle)
+            for (int k = 0; k < 8; ++k) {
+                const float a = any(random), b = (1 - a) * any(random), c = 1 - a - b;
+                const glm::vec3 n =
+                    glm::normalize(a * s.normal[t.x] + b * s.normal[t.y] + c * s.normal[t.z]);
+                const Frame f = make_frame(n, a * s.warp[t.x] + b * s.warp[t.y] + c * s.warp[t.z]);
+                for (const float dot : {glm::dot(f.warp, f.normal), glm::dot(f.warp, f.weft),
+                                        glm::dot(f.weft, f.normal)})
+                    EXPECT_NEAR(dot, 0.0f, 1e-6f);
+                for (const glm::vec3 &v : {f.warp, f.weft, f.normal})
+                    EXPECT_NEAR(glm::length(v), 1.0f, 1e-6f);
+            }
+    }
+}
+
+TEST(Frames, PolesOfValenceTwoToAHundredAreFinite) {
+    for (const int valence : {2, 3, 4, 5, 7, 16, 64, 100})
+        for (const int corners : {3, 4}) {
+            // A fan about a vertex: triangles, or quads with an outer vertex each.
+            PolygonMesh m;
+            m.position.emplace_back(0, 0, 0.1);
+            m.uv.emplace_back(0, 0);
+            const int ring = valence * (corners - 2);
+            for (int i = 0; i < ring; ++i) {
+                const double angle = 2 * std::numbers::pi * i / ring;
+                m.position.emplace_back(std::cos(angle), std::sin(angle), 0);
+                m.uv.emplace_back(std::cos(angle), std::sin(angle));
+            }
+            for (int i = 0; i < ring; i += corners - 2) {
+                std::vector<std::uint32_t> v{0};
+                for (int k = 0; k < corners - 1; ++k)
+                    v.push_back(static_cast<std::uint32_t>(1 + (i + k) % ring));
+                m.add_face(v, {v.begin(), v.end()}, 0);
+            }
+            if (corners == 3 && valence == 2)
+                continue; // two triangles with the same corners: a duplicate face
+            FrameReport report;
+            for (const int level : {1, 3}) {
+                const Surface s = add_frames(subdivide(m, {.level = level}),
+                                             {.max_degenerate_area = 1.0}, report, "mesh");
+                check_surface(s, "mesh"); // finite, unit
+                EXPECT_FALSE(s.warp.empty());
+            }
+        }
 }
 
 TEST(Frames, FlatClothHasItsAxes) {

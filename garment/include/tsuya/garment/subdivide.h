@@ -82,7 +82,9 @@ class Subdivider {
     LimitMesh evaluate(const Progress &progress = {});
     /// The limit surface of other positions; vertices and triangles keep their numbers. The rates
     /// stay those of the mesh that was given. Throws Error for another number of positions.
-    LimitMesh evaluate(const std::vector<glm::dvec3> &positions, const Progress &progress = {});
+    LimitMesh evaluate(const std::vector<glm::dvec3> &positions);
+    /// Works out now what the first call with other positions would: weights of the control points.
+    void expect_frames();
 
   private:
     struct State;

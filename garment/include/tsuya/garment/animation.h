@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// A garment that moves: frames of one topology, such as morph targets or a simulator's OBJ files.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tsuya/garment/garment.h"
+
+namespace tsuya::garment {
+
+/// Repairs, seams, rates of tessellation, numbering and UVs are those of the first frame and are
+/// worked out once; seams that were joined stay joined.
+class AnimatedGarment {
+  public:
+    /// \param file the first frame \param where names it in errors. Throws as load.
+    AnimatedGarment(const MeshFile &file, const Options &options, const std::string &where);
+
+    ~AnimatedGarment();
+    AnimatedGarment(AnimatedGarment &&) noexcept;
+    AnimatedGarment &operator=(AnimatedGarment &&) noexcept;
+
+    const LoadedGarment &first() const;
+    /// The surface of other positions, in units and order of the file's vertices; its vertices and
+    /// triangles have the numbers of the first. Throws Error for another number of positions, or
+    /// one that is not finite.
+    Surface frame(const std::vector<glm::dvec3> &positions);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace tsuya::garment
