@@ -30,8 +30,8 @@ class EvaluateCommand final : public Command {
                     "reflectance is compared.");
         app_.add_option("fabric", fabric_, "F.fabric.toml")->required();
         app_.add_option("--against", table_, "TABLE.csv of reflectance")->required();
-        app_.add_option("--model", model_, "A model, or all that the fabric has the data of")
-            ->capture_default_str();
+        app_.add_option("--model", model_,
+                        "A model, or all that the fabric has the data of; the fabric's own");
         app_.add_flag("--json", json_, "As JSON");
     }
 
@@ -43,7 +43,7 @@ class EvaluateCommand final : public Command {
         if (std::any_of(fabric.dye.value.begin(), fabric.dye.value.end(),
                         [](double v) { return v > 0; }))
             console.warning(fabric_.string() + ": the fabric has a dye, which is not compared");
-        std::vector<std::string> models{model_};
+        std::vector<std::string> models{model_.empty() ? fabric.model : model_};
         if (model_ == "all") {
             models.clear();
             for (const ModelName &model : model_names())
@@ -112,7 +112,7 @@ class EvaluateCommand final : public Command {
 
     CLI::App &app_;
     std::filesystem::path fabric_{}, table_{};
-    std::string model_ = "takeda";
+    std::string model_{};
     bool json_ = false;
 };
 

@@ -15,12 +15,12 @@ constexpr int kQuadratureCells = 96;
 constexpr double kFibreF0 = 0.05; // of an index of 1.58: fibres have 1.53 to 1.6
 
 constexpr std::array<ModelName, 7> kModels = {{
+    {"yarn", "warp and weft as rough cylinders fitted to the measured views; the default"},
     {"takeda", "great-circle model through a few measured views"},
     {"takeda_printed", "the same with the map as it is printed, to reproduce the paper"},
     {"half_vector", "microfacets whose distribution is read off the measured views; reciprocal"},
     {"ggx", "anisotropic GGX facets, given or fitted to the measured views; reciprocal"},
     {"lambert", "ideal diffuser"},
-    {"yarn", "warp and weft as rough cylinders fitted to the measured views; reciprocal"},
     {"tabulated", "every light and view from a table; no prediction"},
 }};
 

@@ -46,7 +46,7 @@ TEST(FabricEvaluate, ReportsEveryMeasureOfEveryModelAsJson) {
     EXPECT_EQ(report.at("schema"), "tsuya-fabric-evaluate 1");
     EXPECT_EQ(report.at("table"), table);
     ASSERT_GE(report.at("results").size(), 5u); // no table, so not `tabulated`
-    EXPECT_EQ(report["results"][0].at("model"), "takeda");
+    EXPECT_EQ(report["results"][0].at("model"), "yarn");
     for (const json &result : report["results"]) {
         ASSERT_EQ(result.at("directions").size(), 2u);
         const json &slanting = result["directions"][1];
@@ -67,7 +67,7 @@ TEST(FabricEvaluate, FindsTheSampleSatinNearItsOwnTable) {
     const std::string table = (scene::data_folder() / "fabrics/black_satin.csv").string();
     const Outcome text = run(scratch, {"evaluate", satin().string(), "--against", table});
     ASSERT_EQ(text.status, 0) << text.err;
-    EXPECT_EQ(text.out.rfind("takeda\n", 0), 0u);
+    EXPECT_EQ(text.out.rfind("yarn\n", 0), 0u); // the fabric names no model
     EXPECT_EQ(text.out.find("lambert"), std::string::npos);
     EXPECT_NE(text.out.find("noise_floor\n"), std::string::npos);
     const json report = json::parse(

@@ -13,12 +13,16 @@
 
 namespace tsuya {
 
+/// The model of a fabric that names none: the one that comes nearest to traced cloth, see
+/// sdk/docs/ACCURACY.md.
+inline constexpr const char *kDefaultModel = "yarn";
+
 /// Authored. The measured black fabric gives the specular part, a dye the diffuse part
 /// ([Takeda] Eq. 18).
 struct Fabric {
     std::string name{};
     std::map<std::string, std::string> keys{}; ///< provenance
-    std::string model = "takeda";              ///< of the specular part, see model_names
+    std::string model = kDefaultModel;         ///< of the specular part, see model_names
     std::optional<Bard> bard{};                ///< the measured views, for the models made of them
     std::optional<GgxFacets> ggx{};            ///< for the model `ggx`; none: fitted to the views
     /// For the model `tabulated`: every light and view, and the file that holds them, from the
