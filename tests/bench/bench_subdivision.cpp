@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/bench_scene.h"
+#include "tsuya/garment/check.h"
 #include "tsuya/garment/garment.h"
 
 namespace {
@@ -60,6 +61,53 @@ void subdivision_level(benchmark::State &state) {
 }
 BENCHMARK(subdivision_level)
     ->DenseRange(0, 4)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1);
+
+const garment::PolygonMesh &prepared_dress() {
+    static const garment::PolygonMesh mesh =
+        garment::prepare(garment::read_mesh(scene::data_folder() / "dress" / "dress.obj").mesh)
+            .mesh;
+    return mesh;
+}
+
+// The whole dress in a picture 1000 pixels high.
+Camera portrait() {
+    return {.eye = {0, 0.75, 4}, .target = {0, 0.75, 0}, .vertical_angle = 0.42, .height = 1000};
+}
+
+// Time of tessellation, against what the triangles depart by from the true limit surface.
+void tessellate(benchmark::State &state, const garment::SubdivideOptions &options) {
+    for (auto _ : state)
+        benchmark::DoNotOptimize(garment::subdivide(prepared_dress(), options));
+    const garment::TessellationError error =
+        garment::measure_tessellation(prepared_dress(), options, portrait());
+    state.counters["error"] = error.pixels;
+    state.counters["triangles"] = static_cast<double>(error.triangles);
+    state.counters["position_mm"] = error.position * 1000;
+    state.counters["position_rms_mm"] = error.position_rms * 1000;
+    state.counters["normal_rms_deg"] = error.normal_rms * kDegree;
+    state.counters["warp_rms_deg"] = error.warp_rms * kDegree;
+}
+
+void uniform(benchmark::State &state) {
+    tessellate(state, {.level = static_cast<int>(state.range(0))});
+}
+BENCHMARK(uniform)->DenseRange(0, 4)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
+
+// The number is the tolerance in hundredths of a pixel.
+void adaptive(benchmark::State &state) {
+    const double pixels = 0.01 * static_cast<double>(state.range(0));
+    tessellate(state, {.view = garment::ViewTolerance{.camera = portrait(), .pixels = pixels}});
+}
+BENCHMARK(adaptive)
+    ->Arg(200)
+    ->Arg(100)
+    ->Arg(50)
+    ->Arg(25)
+    ->Arg(10)
+    ->Arg(5)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(1);
