@@ -94,8 +94,8 @@ std::size_t TakedaBrdf::table_bytes() const {
            view_albedo_.bytes();
 }
 
-float TakedaBrdf::limit(const glm::vec3 &to_light) const {
-    return to_light.z < limited_below_ ? 1 / std::max(1.0f, light_albedo_.at(to_light)) : 1.0f;
+float TakedaBrdf::limit_at(const glm::vec3 &to_light) const {
+    return 1 / std::max(1.0f, light_albedo_.at(to_light));
 }
 
 float TakedaBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
@@ -105,7 +105,7 @@ float TakedaBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer
 float TakedaBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     if (!(to_light.z > 0 && to_viewer.z > 0))
         return 0;
-    return kernel::evaluate(scaled_, f0_, to_light, to_viewer).f_cos * limit(to_light);
+    return kernel::f_cos(scaled_, f0_, to_light, to_viewer) * limit(to_light);
 }
 
 void TakedaBrdf::evaluate_cos(std::span<const glm::vec3> to_light,

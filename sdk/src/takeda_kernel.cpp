@@ -25,7 +25,7 @@ constexpr std::size_t kWide = 16, kNarrow = 8;
 // time is what the compiler knows to spread over vectors.
 template <std::size_t kSize>
 inline void evaluate_block(const DiskTable &table, float f0, const float *light, const float *view,
-                           float *f_cos) {
+                           float *out) {
     alignas(64) float k[kSize], facing[kSize], s[kSize], t[kSize], lz[kSize], vz[kSize];
     alignas(64) std::uint32_t index[kSize];
     for (std::size_t i = 0; i < kSize; ++i) {
@@ -52,22 +52,30 @@ inline void evaluate_block(const DiskTable &table, float f0, const float *light,
         const float value = (1 - t[i]) * ((1 - s[i]) * row[i][0] + s[i] * row[i][1]) +
                             t[i] * ((1 - s[i]) * next[i][0] + s[i] * next[i][1]);
         const float result = times_cosine(value, f0, {0, 0, k[i], facing[i], 0, 0}, lz[i], vz[i]);
-        f_cos[i] = least(lz[i], vz[i]) > 0 ? result : 0.0f;
+        out[i] = least(lz[i], vz[i]) > 0 ? result : 0.0f;
     }
 }
 
 // Fewer than fill a vector
 template <std::size_t kSize>
 inline void evaluate_rest(const DiskTable &table, float f0, const float *light, const float *view,
-                          float *f_cos, std::size_t count) {
+                          float *out, std::size_t count) {
     float lights[3 * kSize] = {}, views[3 * kSize] = {}, results[kSize];
     std::copy_n(light, 3 * count, lights);
     std::copy_n(view, 3 * count, views);
     evaluate_block<kSize>(table, f0, lights, views, results);
-    std::copy_n(results, count, f_cos);
+    std::copy_n(results, count, out);
 }
 
 } // namespace
+
+TSUYA_FOR_EVERY_PROCESSOR
+float f_cos(const DiskTable &table, float f0, const glm::vec3 &to_light,
+            const glm::vec3 &to_viewer) {
+    const Pair p =
+        pair_of(to_light.x, to_light.y, to_light.z, to_viewer.x, to_viewer.y, to_viewer.z);
+    return times_cosine(table.at_disk(p.x, p.y), f0, p, to_light.z, to_viewer.z);
+}
 
 TSUYA_FOR_EVERY_PROCESSOR
 Evaluated evaluate(const DiskTable &table, float f0, const glm::vec3 &to_light,
@@ -80,17 +88,17 @@ Evaluated evaluate(const DiskTable &table, float f0, const glm::vec3 &to_light,
 
 TSUYA_FOR_EVERY_PROCESSOR
 void evaluate(const DiskTable &table, float f0, const glm::vec3 *to_light,
-              const glm::vec3 *to_viewer, float *f_cos, std::size_t count) {
+              const glm::vec3 *to_viewer, float *out, std::size_t count) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     const float *light = &to_light->x, *view = &to_viewer->x;
-    for (; count >= kWide; count -= kWide, light += 3 * kWide, view += 3 * kWide, f_cos += kWide)
-        evaluate_block<kWide>(table, f0, light, view, f_cos);
+    for (; count >= kWide; count -= kWide, light += 3 * kWide, view += 3 * kWide, out += kWide)
+        evaluate_block<kWide>(table, f0, light, view, out);
     if (count == kNarrow)
-        evaluate_block<kNarrow>(table, f0, light, view, f_cos);
+        evaluate_block<kNarrow>(table, f0, light, view, out);
     else if (count > kNarrow)
-        evaluate_rest<kWide>(table, f0, light, view, f_cos, count);
+        evaluate_rest<kWide>(table, f0, light, view, out, count);
     else if (count > 0)
-        evaluate_rest<kNarrow>(table, f0, light, view, f_cos, count);
+        evaluate_rest<kNarrow>(table, f0, light, view, out, count);
 }
 
 } // namespace tsuya::kernel

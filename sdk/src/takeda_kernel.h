@@ -117,6 +117,8 @@ struct Evaluated {
     float f_cos; // rho times the light's cosine, before the limit of energy
     float k, half_x, half_y;
 };
+float f_cos(const DiskTable &table, float f0, const glm::vec3 &to_light,
+            const glm::vec3 &to_viewer);
 Evaluated evaluate(const DiskTable &table, float f0, const glm::vec3 &to_light,
                    const glm::vec3 &to_viewer);
 

@@ -50,7 +50,10 @@ class TakedaBrdf {
     std::size_t table_bytes() const;
 
   private:
-    float limit(const glm::vec3 &to_light) const;
+    float limit(const glm::vec3 &to_light) const {
+        return to_light.z < limited_below_ ? limit_at(to_light) : 1.0f;
+    }
+    float limit_at(const glm::vec3 &to_light) const;
     void tabulate_densities();
     void tabulate_albedos(Symmetry symmetry);
     std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
