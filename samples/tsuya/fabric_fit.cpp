@@ -11,6 +11,7 @@
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/fabric.h"
+#include "tsuya/sdk/feature_points.h"
 
 namespace tsuya::program {
 namespace {
@@ -46,7 +47,15 @@ class FitCommand final : public Command {
         resolve(fabric, "fabric");
         scene::prepare_output_file(output_, {".toml"});
         write_fabric(fabric, output_);
-        json_ ? print_json(*fabric.bard) : print_text(*fabric.bard);
+        const double f0 = fabric.bard->peak() > 0 ? f0_of(fabric, "fabric") : 1;
+        json_ ? print_json(*fabric.bard, f0) : print_text(*fabric.bard, f0);
+        for (const BardView &view : misfits(*fabric.bard))
+            console.warning(table_.string() + ": the view at theta " +
+                            std::to_string(std::lround(view.theta / kDegree)) + ", phi " +
+                            std::to_string(std::lround(view.phi / kDegree)) +
+                            " degrees does not fit the others: measured " +
+                            std::to_string(view.brdf_per_sr) + ", fitted " +
+                            std::to_string(view.fitted_per_sr) + " 1/sr");
         return kDone;
     }
 
@@ -55,7 +64,7 @@ class FitCommand final : public Command {
         return std::log10(view.fitted_per_sr / view.brdf_per_sr);
     }
 
-    static void print_text(const Bard &bard) {
+    static void print_text(const Bard &bard, double f0) {
         std::cout << "theta_deg  phi_deg  measured_per_sr  fitted_per_sr  log10_ratio\n";
         std::cout << std::fixed;
         for (const BardView &view : bard.views())
@@ -65,15 +74,36 @@ class FitCommand final : public Command {
                       << std::setprecision(5) << std::setw(13) << log_ratio(view) << "\n";
         std::cout << "views " << bard.views().size() << ", symmetry " << name_of(bard.symmetry())
                   << ", rms of log10 ratio " << bard.residual() << ", asymmetry "
-                  << bard.asymmetry() << "\n";
+                  << bard.asymmetry() << "\n"
+                  << "facets are shown up to a tilt of " << std::setprecision(1)
+                  << shown_tilt(bard) / kDegree << " degrees\n"
+                  << "point  theta_deg  phi_deg  brdf_per_sr  facets_per_sr\n";
+        for (const FeaturePoint &p : feature_points(bard, f0))
+            std::cout << std::setw(5) << p.name << std::setprecision(1) << std::setw(11)
+                      << p.theta / kDegree << std::setw(9) << p.phi / kDegree
+                      << std::setprecision(6) << std::setw(13) << p.brdf_per_sr << std::setw(15)
+                      << p.facets_per_sr << (p.extrapolated ? "  extrapolated" : "") << "\n";
     }
 
-    static void print_json(const Bard &bard) {
+    static void print_json(const Bard &bard, double f0) {
         nlohmann::ordered_json json{{"schema", "tsuya-fabric-fit 1"},
                                     {"symmetry", name_of(bard.symmetry())},
                                     {"residual", bard.residual()},
                                     {"asymmetry", bard.asymmetry()},
+                                    {"shown_tilt_deg", shown_tilt(bard) / kDegree},
+                                    {"feature_points", nlohmann::ordered_json::array()},
+                                    {"misfits", nlohmann::ordered_json::array()},
                                     {"views", nlohmann::ordered_json::array()}};
+        for (const FeaturePoint &p : feature_points(bard, f0))
+            json["feature_points"].push_back({{"name", p.name},
+                                              {"theta_deg", p.theta / kDegree},
+                                              {"phi_deg", p.phi / kDegree},
+                                              {"brdf_per_sr", p.brdf_per_sr},
+                                              {"facets_per_sr", p.facets_per_sr},
+                                              {"extrapolated", p.extrapolated}});
+        for (const BardView &view : misfits(bard))
+            json["misfits"].push_back(
+                {{"theta_deg", view.theta / kDegree}, {"phi_deg", view.phi / kDegree}});
         for (const BardView &view : bard.views())
             json["views"].push_back({{"theta_deg", view.theta / kDegree},
                                      {"phi_deg", view.phi / kDegree},

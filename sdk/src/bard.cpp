@@ -19,6 +19,10 @@ constexpr double kMinReach = 20 * std::numbers::pi / 180;
 // Values below this share of the peak, zeros among them, count as this share: log needs a floor.
 constexpr double kFloor = 1e-6;
 constexpr double kSameView = 1e-6;
+constexpr double kBright = 0.01;       // of the peak: darker views tell nothing of the symmetry
+constexpr double kContradiction = 0.2; // log10, root mean square: a factor of 1.6
+constexpr double kLargestAlbedo = 2;   // some slack for what lies beyond the views
+constexpr double kSteep = 10 * std::numbers::pi / 180; // views nearer to the normal have no azimuth
 
 // The compactly supported C2 function of Wendland for up to three dimensions, [Wendland] phi_{3,1}.
 double kernel(double dx, double dy) {
@@ -46,6 +50,39 @@ bool is_same_view(glm::dvec2 a, glm::dvec2 b, Symmetry symmetry) {
     const auto image = images(a.x, a.y, symmetry, count);
     return std::any_of(image.begin(), image.begin() + count,
                        [&](glm::dvec2 p) { return glm::length(p - b) < kSameView; });
+}
+
+// Refuses views that leave most azimuths unseen: less than a third of what the symmetry leaves.
+void check_azimuths(const std::vector<BardView> &views, Symmetry symmetry,
+                    const std::string &where) {
+    const double turn = 2 * std::numbers::pi;
+    const double period = symmetry == Symmetry::none ? turn : turn / 2;
+    std::vector<double> azimuths;
+    for (const BardView &view : views)
+        if (view.theta > kSteep) {
+            double phi = view.phi - period * std::floor(view.phi / period);
+            if (symmetry == Symmetry::orthotropic)
+                phi = std::min(phi, period - phi);
+            azimuths.push_back(phi);
+        }
+    std::sort(azimuths.begin(), azimuths.end());
+    double covered = 0, whole = period;
+    if (symmetry == Symmetry::orthotropic) {
+        whole = period / 2;
+        covered = azimuths.back() - azimuths.front();
+    } else {
+        double gap = azimuths.front() + period - azimuths.back();
+        for (std::size_t i = 1; i < azimuths.size(); ++i)
+            gap = std::max(gap, azimuths[i] - azimuths[i - 1]);
+        covered = period - gap;
+    }
+    const auto degrees = [](double angle) {
+        return std::to_string(std::lround(angle * 180 / std::numbers::pi)) + " degrees";
+    };
+    if (covered < whole / 3)
+        throw Error({"the views cover " + degrees(covered) + " of azimuth out of " +
+                         degrees(whole) + " that the symmetry '" + name_of(symmetry) + "' leaves",
+                     where, "expected views over a third of them or more"});
 }
 
 // What the surface is fitted to: one point of the disk for each distinct view.
@@ -165,6 +202,7 @@ Search search(const Points &points) {
 } // namespace
 
 void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
+    check_table(table.normal_incidence(), where);
     symmetry_ = table.symmetry;
     double reach = 0;
     for (const ReflectanceRow &row : table.normal_incidence().rows) {
@@ -179,6 +217,8 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
                          " degrees from the normal",
                      where,
                      "expected 6 or more rows with theta_i_deg = 0, some beyond 20 degrees"});
+
+    check_azimuths(views_, symmetry_, where);
 
     // Views that are one by the symmetry become one node with their mean
     struct Group {
@@ -197,7 +237,7 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
             same->members.push_back(&view);
     }
 
-    double squares = 0, mirrored = 0;
+    double squares = 0, mirrored = 0, bright_squares = 0, bright = 0;
     const double floor = std::max(peak_ * kFloor, std::numeric_limits<double>::min());
     for (const Group &g : groups) {
         double mean = 0, variance = 0;
@@ -214,11 +254,42 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
             const double d = std::log10(std::max(v->brdf_per_sr, floor) / mean);
             squares += g.members.size() > 1 ? d * d : 0;
             mirrored += g.members.size() > 1 ? 1 : 0;
+            if (g.members.size() > 1 && mean > kBright * peak_) {
+                const bool noise = std::abs(v->brdf_per_sr - mean) < 4 * v->sigma_per_sr;
+                bright_squares += noise ? 0 : d * d;
+                bright += 1;
+            }
         }
     }
     asymmetry_ = mirrored > 0 ? std::sqrt(squares / mirrored) : 0;
+    contradiction_ = bright > 0 ? std::sqrt(bright_squares / bright) : 0;
+    check_symmetry(where);
     for (const double v : log_value_)
         mean_log_ += v / static_cast<double>(log_value_.size());
+}
+
+void Bard::check_symmetry(const std::string &where) const {
+    if (contradiction_ > kContradiction)
+        throw Error({std::string("the views contradict the declared symmetry '") +
+                         name_of(symmetry_) + "': mirror images differ by a factor of " +
+                         std::to_string(std::pow(10, contradiction_)) + " (root mean square)",
+                     where, "expected `# symmetry: half-turn` for twisted yarn, or `none`"});
+}
+
+void Bard::check_albedo(const std::string &where) const {
+    constexpr int kRings = 24, kParts = 48;
+    double sum = 0;
+    for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kParts; ++j) {
+            const double sine2 = (i + 0.5) / kRings, s = std::sqrt(sine2);
+            const double phi = 2 * std::numbers::pi * (j + 0.5) / kParts;
+            sum += at({s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - sine2)});
+        }
+    const double albedo = sum * std::numbers::pi / (kRings * kParts);
+    if (!(albedo < kLargestAlbedo))
+        throw Error(
+            {"the views reflect " + std::to_string(albedo) + " times what they receive", where,
+             "expected BRDF values in 1/sr without the cosine: a white diffuser has 0.318"});
 }
 
 void Bard::finish() {
@@ -264,6 +335,7 @@ Bard Bard::fit_with(const BardSmoothness *smoothness, const ReflectanceTable &ta
     for (std::size_t i = 0; i < bard.nodes_.size(); ++i)
         bard.nodes_[i].weight = found.best.weight[static_cast<Eigen::Index>(i)];
     bard.finish();
+    bard.check_albedo(where);
     return bard;
 }
 

@@ -9,6 +9,7 @@
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/feature_points.h"
 
 namespace tsuya::test {
 namespace {
@@ -207,6 +208,118 @@ TEST(Bard, RefusesTooFewViewsAndViewsTooNearToTheNormal) {
     expect_refused(near);
     expect_refused(oblique);
     expect_refused({});
+}
+
+// One fault each, and one error that says which.
+TEST(Bard, RefusesTablesThatAreNone) {
+    const ReflectanceTable good = normal_table(satin_cloth(), even_grid(10, 15));
+    const auto told = [](const ReflectanceTable &table) {
+        try {
+            Bard::fit(table, BardSmoothness{}, "t");
+        } catch (const Error &error) {
+            EXPECT_EQ(error.problems().size(), 1u);
+            EXPECT_EQ(error.problems()[0].where, "t");
+            EXPECT_FALSE(error.problems()[0].accepted.empty());
+            return error.problems()[0].what;
+        }
+        return std::string("nothing");
+    };
+    const auto changed = [&](const auto &change) {
+        ReflectanceTable table = good;
+        change(table);
+        return told(table);
+    };
+    EXPECT_EQ(told(good), "nothing");
+    EXPECT_NE(changed([](auto &t) { t.rows[9].brdf_per_sr = NAN; }).find("nan"), std::string::npos);
+    EXPECT_NE(changed([](auto &t) { t.rows[9].brdf_per_sr = -1; }).find("-1"), std::string::npos);
+    EXPECT_NE(changed([](auto &t) { t.rows[9].theta_r = 2; }).find("above the cloth"),
+              std::string::npos);
+    EXPECT_NE(changed([](auto &t) {
+                  t.rows.push_back(t.rows[9]);
+                  t.rows.back().brdf_per_sr *= 3;
+              }).find("measured twice"),
+              std::string::npos);
+    EXPECT_NE(changed([](auto &t) {
+                  for (ReflectanceRow &row : t.rows)
+                      row.brdf_per_sr *= 10000;
+              }).find("times what they receive"),
+              std::string::npos);
+    EXPECT_NE(changed([](auto &t) {
+                  std::erase_if(t.rows, [](const auto &r) { return r.phi_r > 20 * kDegree; });
+              }).find("15 degrees of azimuth"),
+              std::string::npos);
+    for (const Symmetry symmetry : {Symmetry::half_turn, Symmetry::none}) {
+        ReflectanceTable sector = good;
+        sector.symmetry = symmetry;
+        std::erase_if(sector.rows, [](const auto &r) { return r.phi_r > 50 * kDegree; });
+        EXPECT_NE(told(sector).find("45 degrees of azimuth"), std::string::npos);
+    }
+}
+
+// Twisted yarn measured over the whole turn and declared orthotropic; and the same with noise that
+// explains the difference.
+TEST(Bard, RefusesASymmetryThatTheViewsContradict) {
+    Cloth cloth = twisted_cloth();
+    cloth.symmetry = Symmetry::none;
+    ReflectanceTable table = normal_table(cloth, even_grid(10, 15));
+    table.symmetry = Symmetry::half_turn;
+    EXPECT_LT(Bard::fit(table, BardSmoothness{}, "t").asymmetry(), 1e-6);
+    table.symmetry = Symmetry::orthotropic;
+    expect_refused(table);
+    for (ReflectanceRow &row : table.rows)
+        row.sigma_per_sr = row.brdf_per_sr;
+    EXPECT_GT(Bard::fit(table, BardSmoothness{}, "t").asymmetry(), 0.1);
+}
+
+// A highlight one degree wide (at half height) whose views resolve it.
+TEST(Bard, KeepsAPeakOfOneDegree) {
+    ReflectanceTable table;
+    const auto peak = [](double theta_deg) {
+        return 0.02 + 20 * std::exp(-std::pow(theta_deg / 0.6, 2));
+    };
+    for (const double theta :
+         {0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0, 3.0, 5.0, 10.0, 20.0, 40.0, 60.0, 85.0})
+        for (double phi = 0; phi <= (theta > 0 ? 90 : 0); phi += 15)
+            table.rows.push_back(view(theta, phi, peak(theta)));
+    const Bard bard = fit(table);
+    for (double theta = 0; theta < 1.4; theta += 0.05)
+        EXPECT_NEAR(bard.at(direction(theta, 37)), peak(theta), 0.05 * peak(theta)) << theta;
+}
+
+TEST(FeaturePoints, AreReadOffTheSurface) {
+    const Bard bard = bard_of(satin_cloth());
+    const auto points = feature_points(bard, 0.05);
+    ASSERT_EQ(points.size(), 6u);
+    EXPECT_EQ(points[0].name, "F0");
+    EXPECT_NEAR(points[0].brdf_per_sr, bard.at({0, 0, 1}), 1e-12);
+    // Eq. 3 at the normal: D = rho0 / f0
+    EXPECT_NEAR(points[0].facets_per_sr, bard.at({0, 0, 1}) / 0.05, 1e-4);
+    EXPECT_EQ(points[5].name, "Fxz");
+    EXPECT_NEAR(points[5].brdf_per_sr, bard.at(direction(45, 0)), 1e-12);
+    EXPECT_NEAR(points[2].brdf_per_sr, points[4].brdf_per_sr, 1e-9); // mirror images
+    EXPECT_NEAR(shown_tilt(bard), 45 * kDegree, 1e-9);
+    EXPECT_FALSE(points[2].extrapolated);
+    ReflectanceTable near = normal_table(satin_cloth(), even_grid(10, 15));
+    std::erase_if(near.rows, [](const auto &r) { return r.theta_r > 61 * kDegree; });
+    const Bard short_sighted = Bard::fit(near, BardSmoothness{}, "t");
+    EXPECT_NEAR(shown_tilt(short_sighted), 30 * kDegree, 1e-9);
+    EXPECT_TRUE(feature_points(short_sighted, 0.05)[2].extrapolated);
+}
+
+TEST(Misfits, NameTheViewThatDoesNotFit) {
+    ReflectanceTable table = normal_table(satin_cloth(), even_grid(6, 15));
+    const BardSmoothness rough{.noise_share = 1e-2};
+    EXPECT_TRUE(misfits(Bard::fit(table, rough, "t")).empty());
+    for (ReflectanceRow &row : table.rows)
+        if (std::abs(row.theta_r - 30 * kDegree) < 1e-9 &&
+            std::abs(row.phi_r - 45 * kDegree) < 1e-9)
+            row.brdf_per_sr *= 5;
+    const auto found = misfits(Bard::fit(table, rough, "t"));
+    // The surface bends to it, away from its neighbours
+    ASSERT_FALSE(found.empty());
+    EXPECT_LE(found.size(), 4u);
+    EXPECT_NEAR(found[0].theta, 30 * kDegree, 1e-9);
+    EXPECT_NEAR(found[0].phi, 45 * kDegree, 1e-9);
 }
 
 } // namespace

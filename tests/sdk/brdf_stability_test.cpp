@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include "../sdk/src/takeda_kernel.h"
 #include "sdk/brdf_checks.h"
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
-#include "takeda_kernel.h"
 #include "tsuya/sdk/great_circle.h"
 #include "tsuya/sdk/model.h"
 

@@ -337,6 +337,7 @@ TEST(Resolve, RefusesWhatIsOutOfRange) {
 
 TEST(Resolve, TakesTheNormalReflectanceForF0) {
     Fabric fabric = satin();
+    fabric.model = "takeda";
     fabric.f0.reset();
     const Material material = resolve(fabric, "satin");
     ASSERT_TRUE(material.has_specular());

@@ -34,7 +34,11 @@ struct BardSmoothness {
 class Bard {
   public:
     /// Fits the rows with theta_i = 0; the smoothness with the least leave-one-out error is chosen.
-    /// Throws Error naming `where`: fewer than 6 views, all nearer than 20 degrees to the normal.
+    /// Throws Error naming `where`: fewer than 6 views, all nearer than 20 degrees to the normal,
+    /// or all in less than a third of the azimuths that the symmetry leaves; views that contradict
+    /// the declared symmetry (mirror images above 1 % of the peak that differ by a factor of 1.6,
+    /// root mean square, beyond their standard errors); values that reflect more than twice what
+    /// they receive, which are no BRDF; as check_table.
     static Bard fit(const ReflectanceTable &table, const std::string &where);
     /// The same with a smoothness found before: no search.
     static Bard fit(const ReflectanceTable &table, const BardSmoothness &smoothness,
@@ -63,6 +67,8 @@ class Bard {
                          const std::string &where);
     void take_views(const ReflectanceTable &table, const std::string &where);
     void finish();
+    void check_symmetry(const std::string &where) const;
+    void check_albedo(const std::string &where) const;
     double log_at(double x, double y) const;
 
     Symmetry symmetry_ = Symmetry::orthotropic;
@@ -72,6 +78,7 @@ class Bard {
     std::vector<Node> mirrored_{}; ///< nodes with their mirror images
     std::vector<double> log_value_{}, relative_sigma_{};
     double mean_log_ = 0, peak_ = 0, asymmetry_ = 0;
+    double contradiction_ = 0; ///< the same of views that noise does not explain
 };
 
 } // namespace tsuya
