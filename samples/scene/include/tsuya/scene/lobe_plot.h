@@ -22,9 +22,10 @@ struct LobePlot {
 
 /// Draws, through the program gnuplot, BRDF times cos theta_r in the plane of incidence for light
 /// at 0, 15, 30, 45, 60 and 75 degrees in the warp, bias and weft planes, and a map of the
-/// reflectance under light from straight above. Points are the rows of `against` that lie in those
-/// planes, and under those lights. Throws Error: a name that ends neither in .svg nor in .png; as
-/// make_model; no gnuplot, naming the package that has it; what gnuplot says where it fails.
+/// reflectance under light from straight above, where the fabric has measured views. Points are the
+/// rows of `against` that lie in those planes, and under those lights. Throws Error: a name that
+/// ends neither in .svg nor in .png; as make_model; no gnuplot, naming the package that has it;
+/// what gnuplot says where it fails.
 void plot_lobes(const LobePlot &plot, const std::filesystem::path &file);
 
 } // namespace tsuya::scene

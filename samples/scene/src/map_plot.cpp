@@ -1,0 +1,114 @@
+#include "tsuya/scene/map_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gnuplot.h"
+#include "plot_data.h"
+#include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/model.h"
+
+namespace tsuya::scene {
+namespace {
+
+constexpr int kWidth = 1360, kHeight = 640;
+constexpr double kShownTilt = 45; // degrees
+
+// D of the facets at a tilt.
+class FacetMap {
+  public:
+    explicit FacetMap(const Fabric &fabric)
+        : model_(make_model("half_vector", fabric, "fabric")), bard_(*fabric.bard),
+          f0_(f0_of(fabric, "fabric")) {}
+
+    double at(double tilt, double phi) const {
+        const glm::dvec3 half = direction(tilt, phi);
+        const double cosine = half.z;
+        if (tilt <= kShownTilt * kDegree) {
+            // [Takeda] Eqs. 3-5 for light from straight above: G is min(1, 2 cos theta_r)
+            const glm::dvec3 view = direction(2 * tilt, phi);
+            const double fresnel = f0_ + (1 - f0_) * std::pow(1 - cosine, 5);
+            return bard_.at({view.x, view.y, std::max(view.z, 0.0)}) * std::max(view.z, 0.5) /
+                   fresnel;
+        }
+        // The same solved for light and viewer at H, where F is f0 and G is min(1, 2 cos^2)
+        return cosine > 1e-3 ? model_(half, half) * std::max(cosine * cosine, 0.5) / f0_ : 0;
+    }
+
+  private:
+    BrdfFunction model_;
+    const Bard &bard_;
+    double f0_;
+};
+
+struct Feature {
+    const char *name;
+    double theta_r_deg; // along the weft
+};
+constexpr std::array<Feature, 3> kFeatures = {{{"F0", 0}, {"Fxz", 45}, {"F2", 90}}};
+
+// Marks, and a title with their values. \param angle_share of theta_r in the map's angle
+template <class Value>
+std::string features(const std::string &title, const Value &value, double angle_share) {
+    std::string script, values;
+    int index = 1;
+    for (const Feature &feature : kFeatures) {
+        const double angle = feature.theta_r_deg * angle_share;
+        values += std::string(index > 1 ? ",   " : "") + feature.name + " " +
+                  rounded(value(angle * kDegree, 0.0));
+        script += "set label " + std::to_string(index++) + " '" + feature.name + "' at " +
+                  number(angle) +
+                  ",0 point pt 7 ps 0.7 lc rgb 'black' front center offset 0,-1.1 " +
+                  "noenhanced boxed\n";
+    }
+    return script + "set title \"" + title + "\\n" + values + " 1/sr\" noenhanced\n";
+}
+
+constexpr const char *kStyle = R"(
+set multiplot
+set tmargin at screen 0.87
+set bmargin at screen 0.13
+set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3
+)";
+
+constexpr const char *kBardLabels = R"(
+set lmargin at screen 0.05
+set rmargin at screen 0.395
+set xlabel 'theta_r along the weft, degrees' noenhanced
+set ylabel 'theta_r along the warp, degrees' noenhanced
+set cblabel '1/sr'
+plot $bard using 1:2:3 with image
+)";
+
+constexpr const char *kFacetLabels = R"(
+set lmargin at screen 0.55
+set rmargin at screen 0.895
+set xlabel 'tilt of the facet along the weft, degrees' noenhanced
+set ylabel 'tilt of the facet along the warp, degrees' noenhanced
+set cblabel 'D(H), 1/sr'
+set object 4 circle at 0,0 size 45 front fs empty border rgb '#ff3030' lw 1.5
+plot $facets using 1:2:3 with image
+unset multiplot
+)";
+
+} // namespace
+
+void plot_maps(const Fabric &fabric, const std::filesystem::path &file) {
+    prepare_output_file(file, {".svg", ".png"});
+    const FacetMap facets(fabric); // first: it throws where there is no BARD
+    const auto bard = [&](double theta, double phi) {
+        return fabric.bard->at(direction(theta, phi));
+    };
+    const auto facet = [&](double tilt, double phi) { return facets.at(tilt, phi); };
+    const DiskMap views = disk_map("bard", 90, bard);
+    const DiskMap tilts = disk_map("facets", kShownTilt, facet);
+    const std::string title = "Facets D(H) with f0 = " + rounded(f0_of(fabric, "fabric")) +
+                              "; striped, beyond 45° of tilt: extrapolated";
+    run_gnuplot(views.block + tilts.block + kStyle + disk_style(views.most) +
+                    features("BARD: BRDF under light from straight above", bard, 1) + kBardLabels +
+                    disk_style(tilts.most) + features(title, facet, 0.5) + kFacetLabels,
+                file, kWidth, kHeight);
+}
+
+} // namespace tsuya::scene
