@@ -87,7 +87,7 @@ TEST(FabricPlot, DrawsEveryViewInASmallFile) {
     const Scratch scratch;
     const std::map<std::string, std::string> labels = {{"lobes", "Light in the bias plane"},
                                                        {"bodies", "seen from above"},
-                                                       {"map", "45° of tilt: extrapolated"},
+                                                       {"map", "42.5° of tilt: extrapolated"},
                                                        {"rings", "phi_r from the weft, degrees"}};
     for (const auto &[view, label] : labels) {
         const fs::path svg = scratch / (view + ".svg");
@@ -155,8 +155,10 @@ TEST(FabricPlot, FacetsFollowTheirEquation) {
     std::size_t shown = 0, striped = 0;
     for (const auto &row : data["facets"]) {
         const double tilt = std::hypot(row[0], row[1]);
-        striped += tilt > 45 && tilt < 90 && std::isnan(row[2]);
-        if (tilt > 44.9)
+        const bool stripe = std::isnan(row[2]);
+        EXPECT_TRUE(!stripe || tilt > 42.5) << "the table has views to 85 degrees";
+        striped += stripe && tilt < 90;
+        if (stripe || tilt > 44.9)
             continue;
         // [Takeda] Eqs. 3-5 with L = N
         const glm::dvec3 view = direction(2 * tilt, std::atan2(row[1], row[0]) / kDegree);
@@ -166,7 +168,7 @@ TEST(FabricPlot, FacetsFollowTheirEquation) {
         ASSERT_NEAR(row[2], d, 2e-5 * d) << row[0] << " " << row[1];
         ++shown;
     }
-    EXPECT_GT(shown, 6000u);
+    EXPECT_GT(shown, 5500u);
     EXPECT_GT(striped, 2000u);
 }
 

@@ -1,19 +1,20 @@
 #include "tsuya/scene/map_plot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "gnuplot.h"
 #include "plot_data.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/feature_points.h"
 #include "tsuya/sdk/model.h"
 
 namespace tsuya::scene {
 namespace {
 
 constexpr int kWidth = 1360, kHeight = 640;
-constexpr double kShownTilt = 45; // degrees
+constexpr double kLargestTilt = 45; // degrees, that light from above can show
 
 // D of the facets at a tilt.
 class FacetMap {
@@ -25,7 +26,7 @@ class FacetMap {
     double at(double tilt, double phi) const {
         const glm::dvec3 half = direction(tilt, phi);
         const double cosine = half.z;
-        if (tilt <= kShownTilt * kDegree) {
+        if (tilt <= kLargestTilt * kDegree) {
             // [Takeda] Eqs. 3-5 for light from straight above: G is min(1, 2 cos theta_r)
             const glm::dvec3 view = direction(2 * tilt, phi);
             const double fresnel = f0_ + (1 - f0_) * std::pow(1 - cosine, 5);
@@ -42,25 +43,19 @@ class FacetMap {
     double f0_;
 };
 
-struct Feature {
-    const char *name;
-    double theta_r_deg; // along the weft
-};
-constexpr std::array<Feature, 3> kFeatures = {{{"F0", 0}, {"Fxz", 45}, {"F2", 90}}};
-
 // Marks, and a title with their values. \param angle_share of theta_r in the map's angle
-template <class Value>
-std::string features(const std::string &title, const Value &value, double angle_share) {
+std::string marks(const std::string &title, const std::vector<FeaturePoint> &points,
+                  double FeaturePoint::*value, double angle_share) {
     std::string script, values;
     int index = 1;
-    for (const Feature &feature : kFeatures) {
-        const double angle = feature.theta_r_deg * angle_share;
-        values += std::string(index > 1 ? ",   " : "") + feature.name + " " +
-                  rounded(value(angle * kDegree, 0.0));
-        script += "set label " + std::to_string(index++) + " '" + feature.name + "' at " +
-                  number(angle) +
-                  ",0 point pt 7 ps 0.7 lc rgb 'black' front center offset 0,-1.1 " +
-                  "noenhanced boxed\n";
+    for (const FeaturePoint &point : points) {
+        const double angle = point.theta * angle_share / kDegree;
+        const std::string name(point.name);
+        values += (index > 1 ? ", " : "") + name + " " + rounded(point.*value);
+        script += "set label " + std::to_string(index++) + " '" + name + "' at " +
+                  number(angle * std::cos(point.phi)) + "," + number(angle * std::sin(point.phi)) +
+                  " point pt 7 ps 0.7 lc rgb 'black' front center offset 0," +
+                  (std::sin(point.phi) < -0.5 ? "1.1" : "-1.1") + " noenhanced boxed\n";
     }
     return script + "set title \"" + title + "\\n" + values + " 1/sr\" noenhanced\n";
 }
@@ -87,7 +82,6 @@ set rmargin at screen 0.895
 set xlabel 'tilt of the facet along the weft, degrees' noenhanced
 set ylabel 'tilt of the facet along the warp, degrees' noenhanced
 set cblabel 'D(H), 1/sr'
-set object 4 circle at 0,0 size 45 front fs empty border rgb '#ff3030' lw 1.5
 plot $facets using 1:2:3 with image
 unset multiplot
 )";
@@ -102,12 +96,19 @@ void plot_maps(const Fabric &fabric, const std::filesystem::path &file) {
     };
     const auto facet = [&](double tilt, double phi) { return facets.at(tilt, phi); };
     const DiskMap views = disk_map("bard", 90, bard);
-    const DiskMap tilts = disk_map("facets", kShownTilt, facet);
-    const std::string title = "Facets D(H) with f0 = " + rounded(f0_of(fabric, "fabric")) +
-                              "; striped, beyond 45° of tilt: extrapolated";
+    const double shown = shown_tilt(*fabric.bard) / kDegree;
+    const DiskMap tilts = disk_map("facets", shown, facet);
+    const double f0 = f0_of(fabric, "fabric");
+    const std::vector<FeaturePoint> points = feature_points(*fabric.bard, f0);
+    const std::string title = "Facets D(H) with f0 = " + rounded(f0) + "; striped, beyond " +
+                              rounded(shown) + "° of tilt: extrapolated";
     run_gnuplot(views.block + tilts.block + kStyle + disk_style(views.most) +
-                    features("BARD: BRDF under light from straight above", bard, 1) + kBardLabels +
-                    disk_style(tilts.most) + features(title, facet, 0.5) + kFacetLabels,
+                    marks("BARD: BRDF under light from straight above", points,
+                          &FeaturePoint::brdf_per_sr, 1) +
+                    kBardLabels + disk_style(tilts.most) +
+                    marks(title, points, &FeaturePoint::facets_per_sr, 0.5) +
+                    "set object 4 circle at 0,0 size " + number(shown) +
+                    " front fs empty border rgb '#ff3030' lw 1.5\n" + kFacetLabels,
                 file, kWidth, kHeight);
 }
 
