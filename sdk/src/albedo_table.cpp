@@ -8,9 +8,8 @@
 namespace tsuya {
 namespace {
 
-constexpr int kRows = 33;            // over sqrt(cos theta): 0.06 degrees at the horizon
-constexpr int kColumnsOfQuarter = 8; // 11 degrees
-constexpr float kLowest = 1e-5f;     // cosine that stands for the horizon itself
+constexpr int kRows = 33;        // over sqrt(cos theta): 0.06 degrees at the horizon
+constexpr float kLowest = 1e-5f; // cosine that stands for the horizon itself
 
 // Azimuth without trigonometry: |x| + |y| = 1 walked from the weft axis, 1 a quarter, in [0, 4].
 float quarters(const glm::vec3 &d) {
@@ -39,13 +38,16 @@ int held_quarters(Symmetry symmetry) {
 
 } // namespace
 
-AlbedoTable::AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function)
-    : symmetry_(symmetry), columns_(held_quarters(symmetry) * kColumnsOfQuarter + 1),
+AlbedoTable::AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function,
+                         int columns_of_quarter)
+    : symmetry_(symmetry), columns_of_quarter_(columns_of_quarter),
+      columns_(held_quarters(symmetry) * columns_of_quarter + 1),
       value_(static_cast<std::size_t>(kRows * columns_)) {
     tbb::parallel_for(0, kRows, [&](int j) {
         for (int i = 0; i < columns_; ++i)
-            value_[static_cast<std::size_t>(j * columns_ + i)] = function(direction_of(
-                static_cast<float>(i) / kColumnsOfQuarter, static_cast<float>(j) / (kRows - 1)));
+            value_[static_cast<std::size_t>(j * columns_ + i)] = function(
+                direction_of(static_cast<float>(i) / static_cast<float>(columns_of_quarter_),
+                             static_cast<float>(j) / (kRows - 1)));
     });
 }
 
@@ -55,7 +57,7 @@ float AlbedoTable::at(const glm::vec3 &direction) const {
         q = std::abs(direction.y) / std::max(std::abs(direction.x) + std::abs(direction.y), 1e-30f);
     else if (symmetry_ == Symmetry::half_turn && q >= 2)
         q -= 2;
-    const float x = q * kColumnsOfQuarter;
+    const float x = q * static_cast<float>(columns_of_quarter_);
     const float y = std::sqrt(glm::clamp(direction.z, 0.0f, 1.0f)) * (kRows - 1);
     const int i = std::min(static_cast<int>(x), columns_ - 2);
     const int j = std::min(static_cast<int>(y), kRows - 2);

@@ -16,6 +16,7 @@ constexpr int kQuarterNodes = 113; // along a half axis: 0.2 degrees of tilt at 
 constexpr float kFocus = 0.6f;     // of the nodes, which are denser where the lobes are narrow
 constexpr int kDensityCells = 96;
 constexpr int kAlbedoSamples = 8192;
+constexpr int kAlbedoColumns = 16; // of a quarter: at grazing the albedo changes fast with azimuth
 constexpr float kSmallest = 1e-20f;
 // Of the density, spread evenly over half vectors, and of the draws, over the hemisphere
 constexpr float kEvenShare = 0.02f, kLeastEvenDraws = 0.05f;
@@ -107,10 +108,10 @@ void YarnBrdf::tabulate_albedos(Symmetry symmetry) {
                            kAlbedoSamples);
     };
     // limited_below_ is 0 still: this is the albedo before the limit
-    unlimited_ = AlbedoTable(symmetry, albedo);
+    unlimited_ = AlbedoTable(symmetry, albedo, kAlbedoColumns);
     unlimited_albedo_ = unlimited_.maximum();
     limited_below_ = unlimited_.cosine_above(1);
-    albedo_ = limited_below_ > 0 ? AlbedoTable(symmetry, albedo) : unlimited_;
+    albedo_ = limited_below_ > 0 ? AlbedoTable(symmetry, albedo, kAlbedoColumns) : unlimited_;
 }
 
 float YarnBrdf::limit(const glm::vec3 &direction) const {

@@ -18,7 +18,9 @@ class AlbedoTable {
   public:
     AlbedoTable() = default;
     /// \param function called at unit directions with z > 0, from several threads
-    AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function);
+    /// \param columns_of_quarter steps of azimuth in a quarter turn; 8 are 11 degrees
+    AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function,
+                int columns_of_quarter = 8);
     /// \param direction unit, z >= 0
     float at(const glm::vec3 &direction) const;
     float maximum() const;
@@ -28,7 +30,7 @@ class AlbedoTable {
 
   private:
     Symmetry symmetry_ = Symmetry::orthotropic;
-    int columns_ = 0;
+    int columns_of_quarter_ = 0, columns_ = 0;
     std::vector<float> value_{}; ///< [row from the horizon to the pole][azimuth], ends included
 };
 
