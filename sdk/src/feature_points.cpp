@@ -26,11 +26,15 @@ std::vector<FeaturePoint> feature_points(const Bard &bard, double f0) {
                               std::sin(p.theta) * std::sin(p.phi),
                               std::max(0.0, std::cos(p.theta)));
         p.brdf_per_sr = bard.at(view);
-        // [Takeda] Eq. 3 for light from straight above, solved for D
-        p.facets_per_sr = scaled_bard(bard, checked_f0(f0), glm::vec3(view));
+        p.facets_per_sr = facets_of_view(bard, f0, view);
         p.extrapolated = p.theta > outermost + 1e-9;
     }
     return points;
+}
+
+double facets_of_view(const Bard &bard, double f0, const glm::dvec3 &view) {
+    // [Takeda] Eq. 3 for light from straight above, solved for D
+    return scaled_bard(bard, checked_f0(f0), glm::vec3(view));
 }
 
 double shown_tilt(const Bard &bard) {

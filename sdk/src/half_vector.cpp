@@ -22,11 +22,10 @@ constexpr int kAlbedoSamples = 8192;
 constexpr float kSmallest = 1e-20f;
 constexpr float kEvenShare = 0.02f; // of the density: keeps it above 0 where D is not
 
-// [Takeda] Eq. 3 for light from straight above, solved for D at the tilt of H.
+// D at a tilt that light from straight above shows.
 float shown_facets(const Bard &bard, float f0, float tilt, const glm::vec2 &azimuth) {
-    const float theta = 2 * tilt, z = std::max(std::cos(theta), 0.0f);
-    const glm::dvec3 to_viewer(glm::dvec2(azimuth) * static_cast<double>(std::sin(theta)), z);
-    return static_cast<float>(bard.at(to_viewer)) * std::max(z, 0.5f) / fresnel(f0, std::cos(tilt));
+    const float theta = 2 * tilt;
+    return scaled_bard(bard, f0, {azimuth * std::sin(theta), std::max(std::cos(theta), 0.0f)});
 }
 
 float facets(const Bard &bard, float f0, const glm::vec2 &horizontal) {

@@ -27,11 +27,8 @@ class FacetMap {
         const glm::dvec3 half = direction(tilt, phi);
         const double cosine = half.z;
         if (tilt <= kLargestTilt * kDegree) {
-            // [Takeda] Eqs. 3-5 for light from straight above: G is min(1, 2 cos theta_r)
             const glm::dvec3 view = direction(2 * tilt, phi);
-            const double fresnel = f0_ + (1 - f0_) * std::pow(1 - cosine, 5);
-            return bard_.at({view.x, view.y, std::max(view.z, 0.0)}) * std::max(view.z, 0.5) /
-                   fresnel;
+            return facets_of_view(bard_, f0_, {view.x, view.y, std::max(view.z, 0.0)});
         }
         // The same solved for light and viewer at H, where F is f0 and G is min(1, 2 cos^2)
         return cosine > 1e-3 ? model_(half, half) * std::max(cosine * cosine, 0.5) / f0_ : 0;

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "tsuya/sdk/bard.h"
 
 namespace tsuya {
@@ -23,6 +25,11 @@ struct FeaturePoint {
 /// +warp, +weft, -warp and -weft; the numbers of the last four are our reading, but for F2.
 /// \param f0 in (0, 1]; else throws Error
 std::vector<FeaturePoint> feature_points(const Bard &bard, double f0);
+
+/// D(H) in 1/sr of [Takeda] Eqs. 3-5, H half way between the normal and the view.
+/// \param view unit, z >= 0
+/// \param f0 in (0, 1]; else throws Error
+double facets_of_view(const Bard &bard, double f0, const glm::dvec3 &view);
 
 /// Largest tilt of the facets that the views show, radians: half the theta of the outermost. At
 /// most 45 degrees; what models need beyond is extrapolated.
