@@ -98,6 +98,18 @@ std::string quoted(const std::string &text) {
     return result + '"';
 }
 
+// What is scattered to both sides is no more than arrives.
+void check_diffuse(const Fabric &fabric, const std::string &where) {
+    std::vector<double> wavelengths = fabric.dye.wavelength_nm;
+    wavelengths.insert(wavelengths.end(), fabric.transmittance.wavelength_nm.begin(),
+                       fabric.transmittance.wavelength_nm.end());
+    for (const double nm : wavelengths)
+        if (const double sum = fabric.dye.at(nm) + fabric.transmittance.at(nm); sum > 1 + 1e-9)
+            throw Error({"dye and transmittance are " + std::to_string(sum) + " together at " +
+                             std::to_string(nm) + " nm",
+                         where + ".transmittance", "expected at most 1"});
+}
+
 // The model, and what it is made of but the views.
 void read_model(const Section &root, const std::filesystem::path &file, Fabric &fabric) {
     if (const auto model = root.text("model")) {
@@ -128,12 +140,11 @@ void read_model(const Section &root, const std::filesystem::path &file, Fabric &
 } // namespace
 
 bool Material::has_diffuse() const {
-    return std::any_of(dye.value.begin(), dye.value.end(), [](double v) { return v > 0; });
+    return dye.any_above_zero() || transmittance.any_above_zero();
 }
 
 bool Material::has_specular() const {
-    return specular && std::any_of(specular_tint.value.begin(), specular_tint.value.end(),
-                                   [](double v) { return v > 0; });
+    return specular && (weft_tint.any_above_zero() || warp_tint.any_above_zero());
 }
 
 double f0_of(const Fabric &fabric, const std::string &where) {
@@ -146,12 +157,25 @@ double f0_of(const Fabric &fabric, const std::string &where) {
 }
 
 Material resolve(const Fabric &fabric, const std::string &where) {
-    check_spectrum(fabric.dye, 0, 1, where + ".dye");
+    Material material{.weft_tint = fabric.weft_tint.value_or(fabric.specular_tint),
+                      .warp_tint = fabric.warp_tint.value_or(fabric.specular_tint),
+                      .dye = fabric.dye,
+                      .transmittance = fabric.transmittance};
     check_spectrum(fabric.specular_tint, 0, 1, where + ".specular_tint");
-    Material material{.specular_tint = fabric.specular_tint, .dye = fabric.dye};
+    check_spectrum(material.weft_tint, 0, 1, where + ".weft_tint");
+    check_spectrum(material.warp_tint, 0, 1, where + ".warp_tint");
+    check_spectrum(fabric.dye, 0, 1, where + ".dye");
+    check_spectrum(fabric.transmittance, 0, 1, where + ".transmittance");
+    check_diffuse(fabric, where);
     check_model_name(fabric.model, where + ".model");
-    if (has_data_of(fabric.model, fabric))
-        material.specular = make_brdf(fabric.model, fabric, where);
+    if (!has_data_of(fabric.model, fabric))
+        return material;
+    material.specular = make_brdf(fabric.model, fabric, where);
+    if (fabric.weft_tint || fabric.warp_tint)
+        if (!std::holds_alternative<YarnBrdf>(*material.specular))
+            throw Error({"the model '" + fabric.model + "' does not tell weft and warp apart",
+                         where + (fabric.weft_tint ? ".weft_tint" : ".warp_tint"),
+                         "expected specular_tint, or the model 'yarn'"});
     return material;
 }
 
@@ -164,7 +188,12 @@ Fabric read_fabric(const std::filesystem::path &file) {
     Fabric fabric{.name = root.required_text("name")};
     fabric.f0 = root.number("f0", 1e-6, 1);
     fabric.dye = read_spectrum(root, "dye", 0);
+    fabric.transmittance = read_spectrum(root, "transmittance", 0);
     fabric.specular_tint = read_spectrum(root, "specular_tint", 1);
+    if (root.has("weft_tint"))
+        fabric.weft_tint = read_spectrum(root, "weft_tint", 1);
+    if (root.has("warp_tint"))
+        fabric.warp_tint = read_spectrum(root, "warp_tint", 1);
     if (const auto keys = root.section("provenance"))
         for (auto &[key, value] : keys->all_texts())
             fabric.keys[key] = value;
@@ -201,7 +230,13 @@ void write_fabric(const Fabric &fabric, const std::filesystem::path &file) {
     for (const auto &[key, value] : fabric.keys)
         out << quoted(key) << " = " << quoted(value) << "\n";
     write_spectrum(out, "dye", fabric.dye);
+    if (fabric.transmittance.any_above_zero())
+        write_spectrum(out, "transmittance", fabric.transmittance);
     write_spectrum(out, "specular_tint", fabric.specular_tint);
+    if (fabric.weft_tint)
+        write_spectrum(out, "weft_tint", *fabric.weft_tint);
+    if (fabric.warp_tint)
+        write_spectrum(out, "warp_tint", *fabric.warp_tint);
     if (fabric.ggx) {
         out << "\n[ggx]\nalpha_weft = " << fabric.ggx->alpha_weft
             << "\nalpha_warp = " << fabric.ggx->alpha_warp;

@@ -133,7 +133,12 @@ std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings) {
     }
     for (const Fabric &f : scene.fabrics) {
         h.spectrum(f.dye);
+        h.spectrum(f.transmittance);
         h.spectrum(f.specular_tint);
+        for (const auto *const tint : {&f.weft_tint, &f.warp_tint}) {
+            h.value(tint->has_value());
+            h.spectrum(tint->value_or(f.specular_tint));
+        }
         h.value(f.f0.value_or(0));
         h.bytes(f.model.data(), f.model.size());
         if (f.ggx)

@@ -27,36 +27,51 @@ glm::vec3 mirrored(const glm::vec3 &d, const glm::vec3 &geometric_normal) {
 template <int K> struct PathTracer<K>::Vertex {
     const SurfacePoint &point;
     const Shading &shading;
-    const Channels<K> &dye, &tint;
+    const Colours<Channels<K>> &colours;
     glm::vec3 to_viewer; // local
     ViewTerms view;
     std::uint32_t depth;
 
-    // f cos and pdf of a light above the geometric surface. Directions that the shading normal's
-    // hemisphere has below that surface are folded back above it, so that no energy is lost and
-    // none leaks through.
+    // f cos and pdf of a light on either side of the geometric surface. Directions that the shading
+    // normal's hemisphere has on the other side of it are folded back, so that no energy is lost
+    // and none leaks through.
     Shading::Weighed weigh(const glm::vec3 &to_light) const {
-        Shading::Weighed w = shading.weigh(point.frame.to_local(to_light), to_viewer, view);
-        const glm::vec3 folded = point.frame.to_local(mirrored(to_light, point.geometric_normal));
-        if (folded.z > 0) {
-            const Shading::Weighed more = shading.weigh(folded, to_viewer, view);
-            w.f_cos.diffuse += more.f_cos.diffuse;
-            w.f_cos.specular += more.f_cos.specular;
-            w.pdf += more.pdf;
+        const bool above = glm::dot(to_light, point.geometric_normal) > 0;
+        Shading::Weighed w;
+        for (const glm::vec3 &light : {to_light, mirrored(to_light, point.geometric_normal)}) {
+            const glm::vec3 local = point.frame.to_local(light);
+            if ((local.z > 0) != above)
+                continue;
+            const Shading::Weighed part = shading.weigh(local, to_viewer, view);
+            w.f_cos.add(part.f_cos);
+            w.pdf += part.pdf;
         }
         return w;
     }
 
+    // Rays start on this side of the surface.
+    glm::vec3 origin(const glm::vec3 &direction) const {
+        const bool above = glm::dot(direction, point.geometric_normal) > 0;
+        return offset_ray(point.position, above ? point.geometric_normal : -point.geometric_normal);
+    }
+
     void colour(const Response &r, float scale, Channels<K> &result) const {
         for (std::size_t k = 0; k < K; ++k)
-            result.v[k] = (dye.v[k] * r.diffuse + tint.v[k] * r.specular) * scale;
+            result.v[k] = (colours.dye.v[k] * r.diffuse + colours.warp.v[k] * r.warp) * scale;
+        if (r.weft > 0)
+            result.add(colours.weft, r.weft * scale);
+        if (r.transmitted > 0)
+            result.add(colours.transmittance, r.transmitted * scale);
     }
 };
 
 template <int K> PathTracer<K>::PathTracer(const PreparedScene &prepared) : p_(prepared) {
-    for (std::size_t i = 0; i < prepared.dye.size(); ++i) {
-        std::copy_n(prepared.dye[i].begin(), K, dye_.emplace_back().v.begin());
-        std::copy_n(prepared.tint[i].begin(), K, tint_.emplace_back().v.begin());
+    for (const Colours<std::vector<float>> &from : prepared.colours) {
+        Colours<Channels<K>> &to = colours_.emplace_back();
+        std::copy_n(from.dye.begin(), K, to.dye.v.begin());
+        std::copy_n(from.transmittance.begin(), K, to.transmittance.v.begin());
+        std::copy_n(from.weft.begin(), K, to.weft.v.begin());
+        std::copy_n(from.warp.begin(), K, to.warp.v.begin());
     }
 }
 
@@ -64,18 +79,18 @@ template <int K>
 void PathTracer<K>::light_directly(const Vertex &vertex, std::size_t light, float probability,
                                    const Sampler &sampler, const Channels<K> &throughput,
                                    Channels<K> *radiance) {
-    const glm::vec3 origin = offset_ray(vertex.point.position, vertex.point.geometric_normal);
     const auto ray = p_.lights.sample(
-        light, origin,
+        light, vertex.point.position,
         sampler.pair(vertex.depth, Purpose::light_point, static_cast<std::uint32_t>(light)));
     if (!ray || !(ray->radiance > 0) ||
-        !(glm::dot(ray->to_light, vertex.point.geometric_normal) > 0))
+        !(vertex.shading.transmits() || glm::dot(ray->to_light, vertex.point.geometric_normal) > 0))
         return;
     const Shading::Weighed w = vertex.weigh(ray->to_light);
-    if (!(w.f_cos.diffuse + w.f_cos.specular > 0))
+    if (!(w.f_cos.sum() > 0))
         return;
     ++rays_;
-    if (p_.accelerator.occluded(origin, ray->to_light, ray->distance * kShadowReach))
+    if (p_.accelerator.occluded(vertex.origin(ray->to_light), ray->to_light,
+                                ray->distance * kShadowReach))
         return;
     // [Veach] balance heuristic
     const float light_pdf = ray->pdf * probability;
@@ -130,8 +145,7 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
             *first = {true, hit.distance, point.frame.normal, point.frame.warp, hit.object};
         Vertex vertex{point,
                       p_.shading[point.fabric],
-                      dye_[point.fabric],
-                      tint_[point.fabric],
+                      colours_[point.fabric],
                       point.frame.to_local(-direction),
                       {},
                       depth};
@@ -154,11 +168,12 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         if (!drawn)
             return;
         glm::vec3 next = point.frame.to_world(drawn->to_light);
-        if (const float above = glm::dot(next, point.geometric_normal); !(above > 0))
+        const bool through = drawn->to_light.z < 0;
+        if ((glm::dot(next, point.geometric_normal) > 0) == through)
             next = mirrored(next, point.geometric_normal);
         Shading::Weighed w{drawn->response, drawn->pdf};
         const glm::vec3 folded = point.frame.to_local(mirrored(next, point.geometric_normal));
-        if (folded.z > 0)
+        if ((folded.z > 0) != through)
             w = vertex.weigh(next);
         if (!(w.pdf > 0))
             return;
@@ -168,7 +183,7 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         if (!(throughput.largest() > 0))
             return;
 
-        origin = offset_ray(point.position, point.geometric_normal);
+        origin = vertex.origin(next);
         direction = next;
         ++rays_;
         const bool found = p_.accelerator.intersect(origin, direction, kInfinity, hit);

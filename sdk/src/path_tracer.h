@@ -32,6 +32,9 @@ struct FirstHit {
     std::uint32_t object = 0;
 };
 
+// Of the parts of a fabric's response.
+template <class T> struct Colours { T dye{}, transmittance{}, weft{}, warp{}; };
+
 // A scene made ready: independent of the number of channels.
 struct PreparedScene {
     PreparedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts,
@@ -42,9 +45,9 @@ struct PreparedScene {
     glm::dvec3 centre;
     Accelerator accelerator;
     Lights lights;
-    std::vector<Shading> shading;              // per fabric
-    std::vector<std::vector<float>> dye, tint; // per fabric, channels
-    glm::vec3 eye, forward, right, up;         // camera, scaled to the image plane at distance 1
+    std::vector<Shading> shading;                     // per fabric
+    std::vector<Colours<std::vector<float>>> colours; // per fabric, values per channel
+    glm::vec3 eye, forward, right, up; // camera, scaled to the image plane at distance 1
 
     glm::vec3 camera_direction(float x, float y) const;
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
@@ -70,7 +73,7 @@ template <int K> class PathTracer {
                      Channels<K> *radiance) const;
 
     const PreparedScene &p_;
-    std::vector<Channels<K>> dye_, tint_; // per fabric
+    std::vector<Colours<Channels<K>>> colours_; // per fabric
     std::uint64_t rays_ = 0;
 };
 

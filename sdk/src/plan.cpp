@@ -1,18 +1,9 @@
 #include "tsuya/sdk/plan.h"
 
-#include <algorithm>
-
 #include "tsuya/sdk/model.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya {
-namespace {
-
-bool any_above_zero(const Spectrum &s) {
-    return std::any_of(s.value.begin(), s.value.end(), [](double v) { return v > 0; });
-}
-
-} // namespace
 
 Plan plan(const Scene &scene, const RenderSettings &settings) {
     Plan p;
@@ -28,12 +19,16 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
         const Fabric &fabric = scene.fabrics[i];
         if (skip(!used[i], "fabric '" + fabric.name + "' dresses nothing", "its tables"))
             continue;
-        const bool specular =
-            has_data_of(fabric.model, fabric) && any_above_zero(fabric.specular_tint);
-        const bool diffuse = any_above_zero(fabric.dye);
+        const bool specular = has_data_of(fabric.model, fabric) &&
+                              (fabric.weft_tint.value_or(fabric.specular_tint).any_above_zero() ||
+                               fabric.warp_tint.value_or(fabric.specular_tint).any_above_zero());
+        const bool transmits = fabric.transmittance.any_above_zero();
+        const bool diffuse = fabric.dye.any_above_zero() || transmits;
         skip(!specular, "no specular part in fabric '" + fabric.name + "'",
              "its evaluation at every point");
         skip(!diffuse, "no dye in fabric '" + fabric.name + "'", "the diffuse part at every point");
+        skip(!transmits, "no transmittance of fabric '" + fabric.name + "'",
+             "shadow rays to lights behind it");
         p.any_specular |= specular;
         p.any_diffuse |= diffuse;
     }

@@ -33,6 +33,19 @@ float mean(const std::vector<float> &v) {
     return std::accumulate(v.begin(), v.end(), 0.0f) / static_cast<float>(v.size());
 }
 
+Colours<std::vector<float>> colours_of(const Material &material, const SpectralBasis &basis) {
+    Colours<std::vector<float>> c{
+        project(material.dye, basis), project(material.transmittance, basis),
+        project(material.weft_tint, basis), project(material.warp_tint, basis)};
+    // Least squares may leave the range where a spectrum has a steep edge
+    for (std::vector<float> *const colour : {&c.dye, &c.weft, &c.warp})
+        for (float &value : *colour)
+            value = std::min(value, 1.0f);
+    for (std::size_t k = 0; k < c.dye.size(); ++k)
+        c.transmittance[k] = std::min(c.transmittance[k], 1 - c.dye[k]);
+    return c;
+}
+
 } // namespace
 
 PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool keep_idle_parts,
@@ -46,13 +59,10 @@ PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool 
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
         const Material material =
             used[i] ? resolve(scene.fabrics[i], "fabrics." + scene.fabrics[i].name) : Material{};
-        dye.push_back(project(material.dye, basis));
-        tint.push_back(project(material.specular_tint, basis));
-        // Least squares may leave the range where a spectrum has a steep edge
-        for (std::vector<float> *const colour : {&dye.back(), &tint.back()})
-            for (float &c : *colour)
-                c = std::min(c, 1.0f);
-        shading.emplace_back(material, mean(dye.back()), mean(tint.back()), keep_idle_parts);
+        const Colours<std::vector<float>> &c = colours.emplace_back(colours_of(material, basis));
+        const MeanColours means{mean(c.dye), mean(c.transmittance),
+                                0.5f * (mean(c.weft) + mean(c.warp))};
+        shading.emplace_back(material, means, keep_idle_parts);
     }
     const Camera &camera = scene.camera;
     const double half_height = std::tan(0.5 * camera.vertical_angle);

@@ -12,9 +12,11 @@ constexpr float kLeastTransmission = 1e-3f;
 
 } // namespace
 
-Shading::Shading(const Material &material, float dye_mean, float tint_mean, bool keep_idle_parts)
+Shading::Shading(const Material &material, const MeanColours &means, bool keep_idle_parts)
     : diffuse_(material.has_diffuse() || keep_idle_parts), couples_(material.has_specular()),
-      dye_mean_(dye_mean), tint_mean_(tint_mean) {
+      two_tints_(material.weft_tint != material.warp_tint), means_(means),
+      transmitted_draws_(
+          means.transmittance > 0 ? means.transmittance / (means.dye + means.transmittance) : 0) {
     if (!material.specular || !(material.has_specular() || keep_idle_parts))
         return;
     specular_ = material.specular;
@@ -47,9 +49,9 @@ ViewTerms Shading::view_terms(const glm::vec3 &to_viewer) const {
     if (!diffuse_)
         return {view.diffuse_scale, 1.0f};
     const float bright =
-        tint_mean_ *
+        means_.specular *
         std::visit([&](const auto &m) { return m.albedo_of_view(to_viewer); }, *specular_);
-    const float dyed = dye_mean_ * view.diffuse_scale;
+    const float dyed = (means_.dye + means_.transmittance) * view.diffuse_scale;
     view.specular_share = dyed > 0 && bright > 0
                               ? std::clamp(bright / (bright + dyed), kLeastShare, 1 - kLeastShare)
                               : (bright > 0 ? 1.0f : 0.0f);
@@ -61,19 +63,32 @@ float Shading::diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) con
     return couples_ ? f * view.diffuse_scale * (1 - albedo(to_light)) : f;
 }
 
+void Shading::add_specular(Response &response, float all, float weft) const {
+    response.weft = two_tints_ ? weft : 0.0f;
+    response.warp = all - response.weft;
+}
+
 Shading::Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
                                 const ViewTerms &view) const {
     Weighed w;
-    if (!(to_light.z > 0 && to_viewer.z > 0))
+    if (!(to_viewer.z > 0))
+        return w;
+    const float diffuse_draws = 1 - view.specular_share;
+    if (to_light.z < 0 && transmits()) {
+        const glm::vec3 through(to_light.x, to_light.y, -to_light.z);
+        w.f_cos.transmitted = diffuse_cos(through, view);
+        w.pdf = diffuse_draws * transmitted_draws_ * kLambert.pdf(through, to_viewer);
+    }
+    if (!(to_light.z > 0))
         return w;
     if (diffuse_) {
         w.f_cos.diffuse = diffuse_cos(to_light, view);
-        w.pdf = (1 - view.specular_share) * kLambert.pdf(to_light, to_viewer);
+        w.pdf = diffuse_draws * (1 - transmitted_draws_) * kLambert.pdf(to_light, to_viewer);
     }
     if (specular_) {
         const WeighedLight s =
             std::visit([&](const auto &m) { return m.weigh(to_light, to_viewer); }, *specular_);
-        w.f_cos.specular = s.f_cos;
+        add_specular(w.f_cos, s.f_cos, s.weft);
         w.pdf += view.specular_share * s.pdf_per_sr;
     }
     return w;
@@ -88,18 +103,23 @@ std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const View
         if (!drawn)
             return std::nullopt;
         DrawnLight light{drawn->direction, {}, view.specular_share * drawn->pdf_per_sr};
-        light.response.specular = drawn->weight * drawn->pdf_per_sr;
+        add_specular(light.response, drawn->weight * drawn->pdf_per_sr,
+                     drawn->weft * drawn->pdf_per_sr);
         if (diffuse_) {
             light.response.diffuse = diffuse_cos(light.to_light, view);
-            light.pdf += (1 - view.specular_share) * kLambert.pdf(light.to_light, to_viewer);
+            light.pdf += (1 - view.specular_share) * (1 - transmitted_draws_) *
+                         kLambert.pdf(light.to_light, to_viewer);
         }
         return light;
     }
     const auto drawn = kLambert.sample(to_viewer, u);
     if (!drawn || !diffuse_)
         return std::nullopt;
-    const Weighed w = weigh(drawn->direction, to_viewer, view);
-    return DrawnLight{drawn->direction, w.f_cos, w.pdf};
+    glm::vec3 to_light = drawn->direction;
+    if (choice.y < transmitted_draws_)
+        to_light.z = -to_light.z;
+    const Weighed w = weigh(to_light, to_viewer, view);
+    return DrawnLight{to_light, w.f_cos, w.pdf};
 }
 
 } // namespace tsuya

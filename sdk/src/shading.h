@@ -1,5 +1,5 @@
 #pragma once
-// A material with its colours in K channels: the specular model, and below it the dye.
+// What a material does to light but for its colours: the specular model, and below it the dye.
 
 #include <algorithm>
 #include <optional>
@@ -9,10 +9,24 @@
 
 namespace tsuya {
 
-// f cos of the two parts, before their colours: 1/sr.
+// f cos of the parts, before their colours: 1/sr.
 struct Response {
     float diffuse = 0;
-    float specular = 0;
+    float transmitted = 0;    // diffuse, of light from behind
+    float weft = 0, warp = 0; // specular; all of it warp where one colour serves both
+
+    float sum() const { return diffuse + transmitted + weft + warp; }
+    void add(const Response &r) {
+        diffuse += r.diffuse;
+        transmitted += r.transmitted;
+        weft += r.weft;
+        warp += r.warp;
+    }
+};
+
+// Means of a material's colours over the channels.
+struct MeanColours {
+    float dye = 0, transmittance = 0, specular = 0;
 };
 
 // What is the same for all lights of one view.
@@ -22,7 +36,7 @@ struct ViewTerms {
 };
 
 struct DrawnLight {
-    glm::vec3 to_light;
+    glm::vec3 to_light; // z < 0: behind the cloth
     Response response;
     float pdf;
 };
@@ -30,16 +44,20 @@ struct DrawnLight {
 // Colourless part of a material. The dye lies below the specular surface: light that the surface
 // reflects does not reach it, so rho_d is scaled by (1 - A(L)) (1 - A(V)) / (1 - mean A), A the
 // specular albedo. Differs from [Takeda] Eq. 18, which adds rho_d/pi as it is and then reflects
-// more than it receives; the coupling is that of [Kelemen].
+// more than it receives; the coupling is that of [Kelemen]. What the dyed cloth lets through to its
+// other side is scaled in the same way.
 class Shading {
   public:
-    Shading(const Material &material, float dye_mean, float tint_mean, bool keep_idle_parts);
+    Shading(const Material &material, const MeanColours &means, bool keep_idle_parts);
 
+    // Light from behind counts.
+    bool transmits() const { return transmitted_draws_ > 0; }
     ViewTerms view_terms(const glm::vec3 &to_viewer) const;
     struct Weighed {
         Response f_cos;
         float pdf = 0; // of `sample`
     };
+    // to_light.z < 0: from behind
     Weighed weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
                   const ViewTerms &view) const;
     std::optional<DrawnLight> sample(const glm::vec3 &to_viewer, const ViewTerms &view,
@@ -47,11 +65,14 @@ class Shading {
 
   private:
     float diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) const;
+    void add_specular(Response &response, float all, float weft) const;
     float albedo(const glm::vec3 &direction) const;
 
     std::optional<Brdf> specular_;
     bool diffuse_, couples_;
-    float dye_mean_, tint_mean_;
+    bool two_tints_;
+    MeanColours means_;
+    float transmitted_draws_; // of the draws from the diffuse part
     float mean_albedo_ = 0;
 };
 

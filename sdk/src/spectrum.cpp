@@ -13,6 +13,10 @@ bool Spectrum::is_constant() const {
     return std::all_of(value.begin(), value.end(), [&](double v) { return v == value.front(); });
 }
 
+bool Spectrum::any_above_zero() const {
+    return std::any_of(value.begin(), value.end(), [](double v) { return v > 0; });
+}
+
 double Spectrum::at(double nm) const {
     const auto upper = std::upper_bound(wavelength_nm.begin(), wavelength_nm.end(), nm);
     if (upper == wavelength_nm.begin())

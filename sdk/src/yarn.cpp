@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -25,12 +26,22 @@ constexpr float kEvenShare = 0.02f, kLeastEvenDraws = 0.05f;
 float place_of(float component) { return component * (1 + kFocus) / (component + kFocus); }
 float component_of(float place) { return place * kFocus / (1 + kFocus - place); }
 
+// The even part of weft and warp in 1/sr: each has as much as it has of the filaments.
+glm::vec2 even_of_systems(const YarnLobes &lobes) {
+    const auto filaments = [&](std::size_t axis) {
+        return std::accumulate(lobes.surface[axis].begin(), lobes.surface[axis].end(), 0.0);
+    };
+    const double weft = filaments(0), both = weft + filaments(1);
+    const auto share = static_cast<float>(both > 0 ? weft / both : 0.5);
+    return static_cast<float>(lobes.even) / kPi * glm::vec2(share, 1 - share);
+}
+
 } // namespace
 
 YarnBrdf::YarnBrdf(const YarnLobes &lobes, Symmetry symmetry)
     : lobes_(lobes), optics_(checked_f0(lobes.f0)), pit_{static_cast<float>(lobes.pit[0]),
                                                          static_cast<float>(lobes.pit[1])},
-      even_per_sr_(static_cast<float>(lobes.even) / kPi), mirrored_(symmetry != Symmetry::none) {
+      even_per_sr_(even_of_systems(lobes)), mirrored_(symmetry != Symmetry::none) {
     tabulate_facets();
     tabulate_density();
     // Cylinders are mirrored across their axis, and slopes along it where the cloth is
@@ -118,16 +129,15 @@ float YarnBrdf::limit(const glm::vec3 &direction) const {
     return direction.z < limited_below_ ? 1 / std::max(1.0f, unlimited_.at(direction)) : 1.0f;
 }
 
-// rho times the light's cosine.
-float YarnBrdf::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
-                                   const glm::vec3 &v) const {
+// rho of weft and warp times the light's cosine.
+glm::vec2 YarnBrdf::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
+                                       const glm::vec3 &v) const {
     const glm::vec2 d = facets(half.half);
     const float open = 1 / v.z, ratio = l.z * open;
-    const float sum = even_per_sr_ * l.z +
-                      d.x * optics_.reach<0>(pit_[0], half, l, v).times_cosine(open, ratio) +
-                      d.y * optics_.reach<1>(pit_[1], half, l, v).times_cosine(open, ratio);
+    const glm::vec2 reach(optics_.reach<0>(pit_[0], half, l, v).times_cosine(open, ratio),
+                          optics_.reach<1>(pit_[1], half, l, v).times_cosine(open, ratio));
     // The smaller of the two limits bounds the albedo of both directions and stays reciprocal
-    return sum * std::min(limit(l), limit(v));
+    return (even_per_sr_ * l.z + d * reach) * std::min(limit(l), limit(v));
 }
 
 // Of either direction for the other.
@@ -144,14 +154,17 @@ float YarnBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) 
 float YarnBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     if (!(to_light.z > 0 && to_viewer.z > 0))
         return 0;
-    return times_light_cosine(optics_.half(to_light, to_viewer), to_light, to_viewer);
+    const glm::vec2 systems =
+        times_light_cosine(optics_.half(to_light, to_viewer), to_light, to_viewer);
+    return systems.x + systems.y;
 }
 
 WeighedLight YarnBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     if (!(to_light.z > 0 && to_viewer.z > 0))
         return {};
     const YarnHalf half = optics_.half(to_light, to_viewer);
-    return {times_light_cosine(half, to_light, to_viewer), density(half, to_light.z)};
+    const glm::vec2 systems = times_light_cosine(half, to_light, to_viewer);
+    return {systems.x + systems.y, density(half, to_light.z), systems.x};
 }
 
 float YarnBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
@@ -185,7 +198,8 @@ std::optional<SampledDirection> YarnBrdf::sample(const glm::vec3 &to_viewer,
     const WeighedLight light = weigh(to_light, to_viewer);
     if (!(light.pdf_per_sr > 0))
         return std::nullopt;
-    return SampledDirection{to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr};
+    return SampledDirection{to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr,
+                            light.weft / light.pdf_per_sr};
 }
 
 std::optional<SampledDirection> YarnBrdf::sample_adjoint(const glm::vec3 &to_light,

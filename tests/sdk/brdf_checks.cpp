@@ -110,11 +110,17 @@ Check check_weights(const AnyBrdf &brdf) {
     Random random(13);
     visit_pairs([&](const glm::vec3 &l, const glm::vec3 &v) {
         note(check, relative(brdf.evaluate(l, v) * double(l.z), brdf.evaluate_cos(l, v)), l, v);
+        const WeighedLight weighed = brdf.weigh(l, v);
+        note(check, relative(weighed.f_cos, brdf.evaluate_cos(l, v)), l, v);
+        note(check, relative(weighed.pdf_per_sr, brdf.pdf(l, v)), l, v);
+        note(check, weighed.weft >= 0 && weighed.weft <= weighed.f_cos ? 0 : 1, l, v);
         const glm::vec3 u = random.point();
         if (const auto s = brdf.sample(v, u)) {
             const double f_cos = brdf.evaluate_cos(s->direction, v);
             note(check, relative(s->pdf_per_sr, brdf.pdf(s->direction, v)), s->direction, v);
             note(check, relative(double(s->weight) * s->pdf_per_sr, f_cos), s->direction, v);
+            const double weft = brdf.weigh(s->direction, v).weft;
+            note(check, relative(double(s->weft) * s->pdf_per_sr, weft), s->direction, v);
         }
         if (const auto s = brdf.sample_adjoint(l, u)) {
             const double f_cos = brdf.evaluate(l, s->direction) * double(s->direction.z);

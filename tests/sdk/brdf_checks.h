@@ -21,6 +21,7 @@ struct AnyBrdf {
         std::function<std::optional<SampledDirection>(const glm::vec3 &, const glm::vec3 &)>;
     using Albedo = std::function<float(const glm::vec3 &)>;
     Value evaluate{}, evaluate_cos{}, pdf{}, pdf_adjoint{};
+    std::function<WeighedLight(const glm::vec3 &, const glm::vec3 &)> weigh{};
     Draw sample{}, sample_adjoint{};
     Albedo albedo_of_light{}, albedo_of_view{};
     bool reciprocal = false, energy_limited = false;
@@ -33,6 +34,7 @@ template <BrdfModel Model> AnyBrdf any_brdf(const Model &model) {
             .evaluate_cos = [m](V l, V v) { return m->evaluate_cos(l, v); },
             .pdf = [m](V l, V v) { return m->pdf(l, v); },
             .pdf_adjoint = [m](V l, V v) { return m->pdf_adjoint(l, v); },
+            .weigh = [m](V l, V v) { return m->weigh(l, v); },
             .sample = [m](V v, V u) { return m->sample(v, u); },
             .sample_adjoint = [m](V l, V u) { return m->sample_adjoint(l, u); },
             .albedo_of_light = [m](V l) { return m->albedo_of_light(l); },
@@ -50,7 +52,8 @@ struct Check {
 // Finite and not negative everywhere, the grazing angles among them; zero below the horizon.
 Check check_values(const AnyBrdf &brdf);
 Check check_horizon(const AnyBrdf &brdf);
-// evaluate_cos = evaluate * cos; the pdf a sample carries is the model's; weight = f cos / pdf.
+// evaluate_cos = evaluate * cos; the pdf a sample carries is the model's; weight = f cos / pdf;
+// `weigh` agrees with them, and the weft's part is a part.
 // Worst relative difference.
 Check check_weights(const AnyBrdf &brdf);
 // Worst |f(a,b) - f(b,a)| / (f(a,b) + f(b,a)); passes where that is what the model claims.

@@ -159,12 +159,14 @@ Fabric satin() {
     fabric.bard = bard_of(satin_cloth());
     fabric.f0 = 0.05;
     fabric.dye = {{400, 550, 700}, {0.1, 0.25, 0.9}};
+    fabric.transmittance = {{450, 650}, {0.02, 0.1}};
     fabric.specular_tint = Spectrum::constant(0.8);
     return fabric;
 }
 
 TEST_F(FabricFile, IsReadBackAsWritten) {
-    const Fabric fabric = satin();
+    Fabric fabric = satin();
+    fabric.weft_tint = {{450, 650}, {0.9, 0.2}};
     write_fabric(fabric, file("satin.fabric.toml"));
     const Fabric back = read_fabric(file("satin.fabric.toml"));
     EXPECT_EQ(back.name, fabric.name);
@@ -174,6 +176,9 @@ TEST_F(FabricFile, IsReadBackAsWritten) {
     EXPECT_EQ(back.dye.value, fabric.dye.value);
     EXPECT_TRUE(back.specular_tint.is_constant());
     EXPECT_EQ(back.specular_tint.at(500), 0.8);
+    EXPECT_EQ(back.transmittance, fabric.transmittance);
+    EXPECT_EQ(back.weft_tint, fabric.weft_tint);
+    EXPECT_FALSE(back.warp_tint);
     ASSERT_TRUE(back.bard);
     EXPECT_EQ(back.bard->views().size(), fabric.bard->views().size());
     for (double theta = 0; theta < 90; theta += 7)
@@ -326,13 +331,22 @@ TEST(Resolve, RefusesWhatIsOutOfRange) {
             EXPECT_EQ(error.problems().at(0).where, where);
         }
     };
-    Fabric bright = satin(), tinted = satin(), facets = satin();
+    Fabric bright = satin(), tinted = satin(), facets = satin(), thin = satin(), shot = satin();
     bright.dye = Spectrum::constant(1.1);
     tinted.specular_tint = Spectrum::constant(-0.1);
     facets.f0 = 0;
     expect_refused(bright, "fabrics.satin.dye");
     expect_refused(tinted, "fabrics.satin.specular_tint");
     expect_refused(facets, "fabrics.satin.f0");
+    thin.transmittance = Spectrum::constant(0.2); // the dye reaches 0.9
+    expect_refused(thin, "fabrics.satin.transmittance");
+    shot.warp_tint = Spectrum::constant(2);
+    expect_refused(shot, "fabrics.satin.warp_tint");
+    shot.warp_tint.reset();
+    shot.weft_tint = {{450, 650}, {0.9, 0.2}};
+    resolve(shot, "fabrics.satin");
+    shot.model = "takeda"; // does not tell weft and warp apart
+    expect_refused(shot, "fabrics.satin.weft_tint");
 }
 
 TEST(Resolve, TakesTheNormalReflectanceForF0) {

@@ -1,6 +1,7 @@
 #pragma once
 // Small surfaces and scenes for tests of the renderer.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -103,6 +104,31 @@ inline Scene folded_satin(int width, int height) {
                     .width = width,
                     .height = height};
     return scene;
+}
+
+// A coarse ball in an even environment of radiance 1.
+inline Scene furnace(const Fabric &fabric) {
+    Scene scene;
+    scene.surfaces = {sphere(7, 9)};
+    scene.fabrics = {fabric};
+    scene.objects = {{"ball", {0}, {0}}};
+    scene.environment = Environment{.radiance = 1};
+    scene.camera = {.eye = {0, 0.5, 4}, .target = {0, 0, 0}, .width = 24, .height = 24};
+    return scene;
+}
+
+inline RenderSettings quick(int samples) {
+    return {.stop = {.samples_per_pixel = samples}, .channels = 8};
+}
+
+// Largest |value - expected| over all pixels and channels of a group.
+inline double largest_difference(const SpectralImage &image, std::size_t group, double expected) {
+    double largest = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int k = 0; k < image.basis.count; ++k)
+                largest = std::max(largest, std::abs(image.pixel(group, x, y)[k] - expected));
+    return largest;
 }
 
 } // namespace tsuya::test

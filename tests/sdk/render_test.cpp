@@ -15,36 +15,12 @@ namespace {
 using namespace tsuya;
 using namespace tsuya::test;
 
-RenderSettings quick(int samples) {
-    return {.stop = {.samples_per_pixel = samples}, .channels = 8};
-}
-
-// Largest |value - expected| over all pixels and channels of a group.
-double largest_difference(const SpectralImage &image, std::size_t group, double expected) {
-    double largest = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int k = 0; k < image.basis.count; ++k)
-                largest = std::max(largest, std::abs(image.pixel(group, x, y)[k] - expected));
-    return largest;
-}
-
-Scene furnace(double albedo) {
-    Scene scene;
-    scene.surfaces = {sphere(7, 9)};
-    scene.fabrics = {lambert(albedo)};
-    scene.objects = {{"ball", {0}, {0}}};
-    scene.environment = Environment{.radiance = 1};
-    scene.camera = {.eye = {0, 0.5, 4}, .target = {0, 0, 0}, .width = 24, .height = 24};
-    return scene;
-}
-
 // A white body in a white environment cannot be seen, though its shading normals are far from its
 // triangles' normals.
 TEST(Furnace, WhiteLambertIsInvisible) {
     RenderSettings settings = quick(64);
     settings.max_bounces = 1000;
-    const RenderResult result = render(furnace(1.0), settings);
+    const RenderResult result = render(furnace(lambert(1.0)), settings);
     EXPECT_LT(largest_difference(result.image, 0, 1.0), 1e-3);
     EXPECT_EQ(result.stats.not_finite, 0u);
 }
@@ -52,7 +28,7 @@ TEST(Furnace, WhiteLambertIsInvisible) {
 TEST(Furnace, GreyLambertIsSeen) { // negative control
     RenderSettings settings = quick(64);
     settings.max_bounces = 1000;
-    EXPECT_GT(largest_difference(render(furnace(0.98), settings).image, 0, 1.0), 1e-2);
+    EXPECT_GT(largest_difference(render(furnace(lambert(0.98)), settings).image, 0, 1.0), 1e-2);
 }
 
 // A folded white sheet, with light going back and forth between its folds.

@@ -31,17 +31,23 @@ struct Fabric {
     std::string table_file{};
     std::optional<double> f0{};             ///< in (0, 1]; none: rho0(0,0), as [Takeda] has it
     Spectrum dye = Spectrum::constant(0.0); ///< diffuse reflectance, 0..1
+    /// Diffuse transmittance of the thin cloth, 0..1, with the dye at most 1: light from behind
+    Spectrum transmittance = Spectrum::constant(0.0);
     Spectrum specular_tint = Spectrum::constant(1); ///< colour of the specular part, 0..1
+    /// The same of one system of yarns, in its place: weft and warp of a shot silk are dyed apart.
+    /// For models that tell the systems apart: `yarn`.
+    std::optional<Spectrum> weft_tint{}, warp_tint{};
 };
 
 /// Resolved. Local space, see brdf.h; both sides of a cloth are alike.
 struct Material {
     std::optional<Brdf> specular{};
-    Spectrum specular_tint = Spectrum::constant(1);
-    Spectrum dye = Spectrum::constant(0);
+    /// Colours of what yarns along the weft reflect, see WeighedLight, and of the rest
+    Spectrum weft_tint = Spectrum::constant(1), warp_tint = Spectrum::constant(1);
+    Spectrum dye = Spectrum::constant(0), transmittance = Spectrum::constant(0);
 
-    bool has_diffuse() const;
-    bool has_specular() const;
+    bool has_diffuse() const;  ///< dye or transmittance
+    bool has_specular() const; ///< with a colour
 };
 
 /// The fabric's f0, or what [Takeda] takes where it has none. Throws Error naming `where` if it is
@@ -49,7 +55,8 @@ struct Material {
 double f0_of(const Fabric &fabric, const std::string &where);
 
 /// A fabric without what its model is made of, or with views that are all 0, has no specular part.
-/// Throws Error naming `where`: a spectrum outside 0..1, f0 outside (0, 1]; as make_brdf.
+/// Throws Error naming `where`: a spectrum outside 0..1, dye and transmittance above 1 together, f0
+/// outside (0, 1], tints of weft and warp for a model that does not tell them apart; as make_brdf.
 Material resolve(const Fabric &fabric, const std::string &where);
 
 /// Reads F.fabric.toml, and the table it names. Throws Error with file:line:column; unknown keys

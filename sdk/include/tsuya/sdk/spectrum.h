@@ -14,7 +14,9 @@ struct Spectrum {
     std::vector<double> value{0.0};           ///< as many as wavelengths
 
     static Spectrum constant(double value) { return {{560.0}, {value}}; }
+    bool operator==(const Spectrum &) const = default;
     bool is_constant() const;
+    bool any_above_zero() const;
     /// Value at a wavelength in nm. O(log n).
     double at(double wavelength_nm) const;
 };

@@ -53,8 +53,8 @@ class YarnBrdf {
 
   private:
     glm::vec2 facets(const glm::vec3 &half) const;
-    float times_light_cosine(const YarnHalf &half, const glm::vec3 &to_light,
-                             const glm::vec3 &to_viewer) const;
+    glm::vec2 times_light_cosine(const YarnHalf &half, const glm::vec3 &to_light,
+                                 const glm::vec3 &to_viewer) const;
     float density(const YarnHalf &half, float drawn_cosine) const;
     float limit(const glm::vec3 &direction) const;
     void tabulate_facets();
@@ -64,7 +64,8 @@ class YarnBrdf {
     YarnLobes lobes_{};
     YarnOptics optics_{};
     std::array<float, 2> pit_{};
-    float even_per_sr_ = 0, even_draws_ = 0; ///< even part, and its share of the draws
+    glm::vec2 even_per_sr_{0}; ///< even part of weft and warp
+    float even_draws_ = 0;     ///< its share of the draws
     bool mirrored_ = true;
     int nodes_ = 0;
     std::vector<glm::vec2> facets_{}; ///< D of weft and warp over the horizontal part of H
