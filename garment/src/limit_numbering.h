@@ -40,6 +40,8 @@ class LimitNumbering {
     void face_vertices(std::size_t face, std::uint32_t interior_count,
                        std::vector<std::uint32_t> &vertices) const;
 
+    /// Vertex of a corner of the control mesh.
+    std::uint32_t corner_vertex(std::uint32_t corner) const { return corner_vertex_[corner]; }
     const std::vector<std::uint32_t> &face_first() const { return face_first_; }
     /// Per vertex: the first vertex at the same point of the surface.
     const std::vector<std::uint32_t> &place() const { return place_; }

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "fans.h"
+#include "limit_corners.h"
 #include "limit_numbering.h"
 #include "limit_stencils.h"
 #include "limit_surface.h"
@@ -44,7 +45,7 @@ struct Subdivider::State {
     State(PolygonMesh given, const SubdivideOptions &options)
         : mesh(std::move(given)), crease(options.seam_crease), surface(mesh, options),
           rates(choose_rates(surface, options)), patterns(surface, rates),
-          numbering(surface, patterns, rates) {
+          numbering(surface, patterns, rates), corners(surface, numbering) {
         const std::size_t vertices = numbering.place().size();
         fixed.place = numbering.place();
         fixed.panel_name = mesh.panel_name;
@@ -105,6 +106,7 @@ struct Subdivider::State {
         }
         LimitMesh out = *first;
         stencils->apply(mesh, surface.centre(), out);
+        corners.apply(mesh.position, surface.centre(), out);
         close_seams(out);
         return out;
     }
@@ -136,6 +138,7 @@ struct Subdivider::State {
             throw Interrupted("stopped while subdividing");
         for (const Worker &worker : workers)
             out.repaired_normals += worker.repaired_normals;
+        corners.apply(mesh.position, surface.centre(), out);
         close_seams(out);
         progress("subdivide", 1.0);
         return out;
@@ -147,6 +150,7 @@ struct Subdivider::State {
     TessellationRates rates;
     FacePatterns patterns;
     LimitNumbering numbering;
+    LimitCorners corners;
     LimitMesh fixed; ///< what no frame changes
     std::optional<LimitStencils> stencils;
     std::optional<LimitMesh> first;

@@ -103,6 +103,26 @@ inline PolygonMesh cube() {
     return mesh;
 }
 
+/// A cube with one corner cut off: a triangle, pentagons and quads.
+inline PolygonMesh cut_cube() {
+    PolygonMesh m = cube();
+    const auto corner = static_cast<std::uint32_t>(7);
+    PolygonMesh out;
+    out.position = m.position;
+    out.position[corner] = {0.1, 0.5, 0.5};
+    const std::uint32_t y = 8, z = 9;
+    out.position.emplace_back(0.5, 0.1, 0.5);
+    out.position.emplace_back(0.5, 0.5, 0.1);
+    out.add_face({0, 2, 3, 1}, {-1, -1, -1, -1}, 0);
+    out.add_face({4, 5, y, 7, 6}, std::vector<std::int32_t>(5, -1), 0);
+    out.add_face({0, 1, 5, 4}, {-1, -1, -1, -1}, 0);
+    out.add_face({2, 6, 7, z, 3}, std::vector<std::int32_t>(5, -1), 0);
+    out.add_face({0, 4, 6, 2}, {-1, -1, -1, -1}, 0);
+    out.add_face({1, 3, z, y, 5}, std::vector<std::int32_t>(5, -1), 0);
+    out.add_face({7, y, z}, {-1, -1, -1}, 0);
+    return out;
+}
+
 /// A torus about z whose tube runs around v: u along the big circle, v along the tube.
 struct Torus {
     double big = 1.0, tube = 0.4;
