@@ -5,13 +5,6 @@
 #include <limits>
 
 namespace tsuya::garment {
-namespace {
-
-/// Below this share of a metre nothing is taken to be nearer to the eye.
-constexpr double kNearest = 1e-3;
-
-} // namespace
-
 ViewNeed::ViewNeed(const ViewTolerance &view) : view_(view) {
     const Camera &camera = view.camera;
     const double tan_y = std::tan(0.5 * camera.vertical_angle);
@@ -25,12 +18,15 @@ ViewNeed::ViewNeed(const ViewTolerance &view) : view_(view) {
               glm::normalize(tan_y * forward - up)};
 }
 
+double ViewNeed::footprint(double distance) const {
+    return pixel_ * std::max(distance, view_.nearest);
+}
+
 double ViewNeed::tolerance(const glm::dvec3 &centre, double radius) const {
-    const double distance = glm::distance(centre, view_.camera.eye) - radius;
-    if (seen(centre, radius))
-        return footprint(std::max(distance, kNearest));
+    if (view_.light_from_everywhere || seen(centre, radius))
+        return footprint(glm::distance(centre, view_.camera.eye) - radius);
     double least = std::numeric_limits<double>::infinity();
-    for (const glm::dvec3 &light : view_.lights)
+    for (const ViewLight &light : view_.lights)
         least = std::min(least, shadow_tolerance(centre, radius, light));
     return least;
 }
@@ -42,30 +38,30 @@ bool ViewNeed::seen(const glm::dvec3 &centre, double radius) const {
 }
 
 double ViewNeed::shadow_tolerance(const glm::dvec3 &centre, double radius,
-                                  const glm::dvec3 &light) const {
-    // The part of the ray away from the light that lies inside all planes, which are moved out by
-    // the radius; the shadow of a near light widens with the distance.
-    const glm::dvec3 away = centre - light;
-    const double length = std::max(glm::length(away), kNearest);
-    double begin = 0.0, end = std::numeric_limits<double>::infinity();
+                                  const ViewLight &light) const {
+    // The shadow lies about light + k (centre - light), k >= 1, and is k radius + (k - 1)
+    // light.radius wide: the part of it inside all planes.
+    const glm::dvec3 away = centre - light.centre, eye = view_.camera.eye - light.centre;
+    double first = 1.0, last = std::numeric_limits<double>::infinity();
     for (const glm::dvec3 &n : plane_) {
-        const double start = glm::dot(n, centre - view_.camera.eye) + radius;
-        const double slope = glm::dot(n, away) + radius;
+        const double start = -glm::dot(n, eye) - light.radius;
+        const double slope = glm::dot(n, away) + radius + light.radius;
         if (slope > 0.0)
-            begin = std::max(begin, -start / slope);
+            first = std::max(first, -start / slope);
         else if (slope < 0.0)
-            end = std::min(end, -start / slope);
+            last = std::min(last, -start / slope);
         else if (start < 0.0)
-            end = -1.0;
+            last = 0.0;
     }
-    if (begin > end)
+    if (first > last)
         return std::numeric_limits<double>::infinity();
-    // Where the shadow is nearest to the eye, less its own width there; it is a departure of the
-    // face seen through the light, 1 + t times as large.
-    const double closest = glm::dot(view_.camera.eye - centre, away) / (length * length);
-    const double t = std::clamp(closest, begin, end);
-    const double distance = glm::distance(centre + t * away, view_.camera.eye);
-    return footprint(std::max(distance - (1.0 + t) * radius, kNearest)) / (1.0 + t);
+    // A departure of the face is k times as large in its shadow. Seen from the eye it is largest
+    // where the distance over k is least: |away - eye / k|, less the width.
+    const double nearest = glm::dot(away, eye) / glm::dot(eye, eye);
+    const double share =
+        std::clamp(std::isfinite(nearest) ? nearest : 1.0, 1.0 / last, 1.0 / first);
+    const double distance = glm::length(away - share * eye) - radius - (1.0 - share) * light.radius;
+    return std::max(pixel_ * distance, share * footprint(0.0));
 }
 
 } // namespace tsuya::garment

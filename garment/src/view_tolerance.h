@@ -17,15 +17,16 @@ class ViewNeed {
     double tolerance(const glm::dvec3 &centre, double radius) const;
 
   private:
-    double footprint(double distance) const { return pixel_ * distance; }
+    /// Tolerance of what a pixel sees at a distance or beyond, metres.
+    double footprint(double distance) const;
     bool seen(const glm::dvec3 &centre, double radius) const;
     /// The same by what a shadow in the picture needs.
-    double shadow_tolerance(const glm::dvec3 &centre, double radius, const glm::dvec3 &light) const;
+    double shadow_tolerance(const glm::dvec3 &centre, double radius, const ViewLight &light) const;
 
     ViewTolerance view_;
     double pixel_; ///< tolerance in metres at a distance of one metre
-    std::array<glm::dvec3, 5>
-        plane_; ///< normals of the planes of the view, inward, through the eye
+    /// Normals of the planes of the view, inward, through the eye.
+    std::array<glm::dvec3, 5> plane_;
 };
 
 } // namespace tsuya::garment

@@ -12,6 +12,7 @@
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/feature_points.h"
+#include "tsuya/sdk/model.h"
 
 namespace tsuya::program {
 namespace {
@@ -23,12 +24,18 @@ class FitCommand final : public Command {
     explicit FitCommand(CLI::App &fabric)
         : fit_(*fabric.add_subcommand("fit", "From a few measured views to a fabric")) {
         fit_.footer("Example:\n  tsuya fabric fit black_satin.csv -o black_satin.fabric.toml\n"
-                    "The rows with theta_i = 0 are fitted; the residual of each is printed.");
+                    "The rows with theta_i = 0 are fitted; the residual of each is printed. Rows "
+                    "under oblique light are\nheld against the fabric's model, or fitted as well "
+                    "by the model yarn: tsuya fabric fit ... --use all");
         fit_.add_option("table", table_, "TABLE.csv of reflectance")->required();
         fit_.add_option("-o,--output", output_, "F.fabric.toml")->required();
         fit_.add_option("--name", name_, "Of the fabric; the file's, if not given");
         fit_.add_option("--f0", f0_, "Reflectance of the fibre at normal incidence")
             ->check(CLI::Range(1e-6, 1.0));
+        fit_.add_option("--use", use_,
+                        "normal: rows with theta_i = 0; all: for the model yarn the others too")
+            ->check(CLI::IsMember({"normal", "all"}))
+            ->capture_default_str();
         fit_.add_flag("--json", json_, "Residuals as JSON");
     }
 
@@ -44,48 +51,133 @@ class FitCommand final : public Command {
         fabric.bard = Bard::fit(table, table_.string());
         if (f0_ > 0)
             fabric.f0 = f0_;
-        resolve(fabric, "fabric");
+        Report report{.bard = *fabric.bard};
+        if (use_ == "all") {
+            report.before = oblique(table, make_brdf("yarn", fabric, "fabric"));
+            fabric.yarn = fit_yarn_lobes(*fabric.bard, table, fabric.f0.value_or(YarnLobes{}.f0),
+                                         table_.string());
+            report.yarn = fabric.yarn;
+        }
+        if (const Material material = resolve(fabric, "fabric"); material.specular)
+            report.after = oblique(table, *material.specular);
+        report.f0 = fabric.bard->peak() > 0 ? f0_of(fabric, "fabric") : 1;
         scene::prepare_output_file(output_, {".toml"});
         write_fabric(fabric, output_);
-        const double f0 = fabric.bard->peak() > 0 ? f0_of(fabric, "fabric") : 1;
-        json_ ? print_json(*fabric.bard, f0) : print_text(*fabric.bard, f0);
-        for (const BardView &view : misfits(*fabric.bard))
-            console.warning(table_.string() + ": the view at theta " +
-                            std::to_string(std::lround(view.theta / kDegree)) + ", phi " +
-                            std::to_string(std::lround(view.phi / kDegree)) +
-                            " degrees does not fit the others: measured " +
-                            std::to_string(view.brdf_per_sr) + ", fitted " +
-                            std::to_string(view.fitted_per_sr) + " 1/sr");
+        json_ ? print_json(report) : print_text(report);
+        warn(report, console);
         return kDone;
     }
 
   private:
-    static double log_ratio(const BardView &view) {
-        return std::log10(view.fitted_per_sr / view.brdf_per_sr);
+    // Views under oblique light beside a model.
+    struct Oblique {
+        std::vector<ModelledView> views{};
+        std::size_t lights = 0;
+        double l2_cos = 0; // mean of the lights
+    };
+    struct Report {
+        const Bard &bard;
+        double f0 = 1;
+        std::optional<YarnLobes> yarn{}; // fitted to oblique light too
+        Oblique before{}, after{};
+    };
+
+    static Oblique oblique(const ReflectanceTable &table, const Brdf &brdf) {
+        return std::visit(
+            [&](const auto &model) {
+                const BrdfFunction f = [&](const glm::dvec3 &l, const glm::dvec3 &v) {
+                    return static_cast<double>(model.evaluate(glm::vec3(l), glm::vec3(v)));
+                };
+                Oblique found{.views = oblique_views(table, f)};
+                ReflectanceTable rows{.symmetry = table.symmetry};
+                for (const ModelledView &view : found.views)
+                    rows.rows.push_back(view.row);
+                if (rows.rows.empty())
+                    return found;
+                const Accuracy accuracy = measure_accuracy(rows, f);
+                found.lights = accuracy.directions.size();
+                found.l2_cos = accuracy.mean.l2_cos.value_or(0);
+                return found;
+            },
+            brdf);
     }
 
-    static void print_text(const Bard &bard, double f0) {
+    void warn(const Report &report, Console &console) const {
+        const auto degrees = [](double angle) {
+            return std::to_string(std::lround(angle / kDegree));
+        };
+        const auto say = [&](const std::string &view, double measured, double fitted) {
+            console.warning(table_.string() + ": the view at " + view +
+                            " degrees does not fit the others: measured " +
+                            std::to_string(measured) + ", fitted " + std::to_string(fitted) +
+                            " 1/sr");
+        };
+        for (const BardView &view : misfits(report.bard))
+            say("theta " + degrees(view.theta) + ", phi " + degrees(view.phi), view.brdf_per_sr,
+                view.fitted_per_sr);
+        if (report.yarn)
+            for (const ModelledView &view : misfits(report.after.views))
+                say("theta " + degrees(view.row.theta_r) + ", phi " + degrees(view.row.phi_r) +
+                        " under light at theta_i " + degrees(view.row.theta_i) + ", phi_i " +
+                        degrees(view.row.phi_i),
+                    view.row.brdf_per_sr, view.fitted_per_sr);
+    }
+
+    static double log_ratio(double fitted, double measured) {
+        return std::log10(fitted / measured);
+    }
+
+    static void print_text(const Report &report) {
+        const Bard &bard = report.bard;
         std::cout << "theta_deg  phi_deg  measured_per_sr  fitted_per_sr  log10_ratio\n";
         std::cout << std::fixed;
         for (const BardView &view : bard.views())
-            std::cout << std::setprecision(1) << std::setw(9) << view.theta / kDegree
-                      << std::setw(9) << view.phi / kDegree << std::setprecision(6) << std::setw(17)
-                      << view.brdf_per_sr << std::setw(15) << view.fitted_per_sr
-                      << std::setprecision(5) << std::setw(13) << log_ratio(view) << "\n";
+            print_view(view.theta, view.phi, view.brdf_per_sr, view.fitted_per_sr);
         std::cout << "views " << bard.views().size() << ", symmetry " << name_of(bard.symmetry())
                   << ", rms of log10 ratio " << bard.residual() << ", asymmetry "
                   << bard.asymmetry() << "\n"
                   << "facets are shown up to a tilt of " << std::setprecision(1)
                   << shown_tilt(bard) / kDegree << " degrees\n"
                   << "point  theta_deg  phi_deg  brdf_per_sr  facets_per_sr\n";
-        for (const FeaturePoint &p : feature_points(bard, f0))
+        for (const FeaturePoint &p : feature_points(bard, report.f0))
             std::cout << std::setw(5) << p.name << std::setprecision(1) << std::setw(11)
                       << p.theta / kDegree << std::setw(9) << p.phi / kDegree
                       << std::setprecision(6) << std::setw(13) << p.brdf_per_sr << std::setw(15)
                       << p.facets_per_sr << (p.extrapolated ? "  extrapolated" : "") << "\n";
+        print_oblique(report);
     }
 
-    static void print_json(const Bard &bard, double f0) {
+    static void print_view(double theta, double phi, double measured, double fitted) {
+        std::cout << std::setprecision(1) << std::setw(9) << theta / kDegree << std::setw(9)
+                  << phi / kDegree << std::setprecision(6) << std::setw(17) << measured
+                  << std::setw(15) << fitted << std::setprecision(5) << std::setw(13)
+                  << log_ratio(fitted, measured) << "\n";
+    }
+
+    static void print_oblique(const Report &report) {
+        if (report.after.views.empty())
+            return;
+        if (report.yarn) {
+            std::cout << "theta_i_deg  phi_i_deg  theta_deg  phi_deg  measured_per_sr  "
+                         "fitted_per_sr  log10_ratio\n";
+            for (const ModelledView &view : report.after.views) {
+                std::cout << std::setprecision(1) << std::setw(11) << view.row.theta_i / kDegree
+                          << std::setw(11) << view.row.phi_i / kDegree << std::setw(2) << "";
+                print_view(view.row.theta_r, view.row.phi_r, view.row.brdf_per_sr,
+                           view.fitted_per_sr);
+            }
+        }
+        std::cout << "oblique views " << report.after.views.size() << " under "
+                  << report.after.lights << " lights, " << (report.yarn ? "" : "not ")
+                  << "fitted: l2_cos " << std::setprecision(4) << report.after.l2_cos;
+        if (report.yarn)
+            std::cout << ", from above alone " << report.before.l2_cos << "; pits of weft "
+                      << report.yarn->pit[0] << ", of warp " << report.yarn->pit[1];
+        std::cout << "\n";
+    }
+
+    static void print_json(const Report &report) {
+        const Bard &bard = report.bard;
         nlohmann::ordered_json json{{"schema", "tsuya-fabric-fit 1"},
                                     {"symmetry", name_of(bard.symmetry())},
                                     {"residual", bard.residual()},
@@ -94,7 +186,7 @@ class FitCommand final : public Command {
                                     {"feature_points", nlohmann::ordered_json::array()},
                                     {"misfits", nlohmann::ordered_json::array()},
                                     {"views", nlohmann::ordered_json::array()}};
-        for (const FeaturePoint &p : feature_points(bard, f0))
+        for (const FeaturePoint &p : feature_points(bard, report.f0))
             json["feature_points"].push_back({{"name", p.name},
                                               {"theta_deg", p.theta / kDegree},
                                               {"phi_deg", p.phi / kDegree},
@@ -105,17 +197,41 @@ class FitCommand final : public Command {
             json["misfits"].push_back(
                 {{"theta_deg", view.theta / kDegree}, {"phi_deg", view.phi / kDegree}});
         for (const BardView &view : bard.views())
-            json["views"].push_back({{"theta_deg", view.theta / kDegree},
-                                     {"phi_deg", view.phi / kDegree},
-                                     {"brdf_per_sr", view.brdf_per_sr},
-                                     {"fitted_per_sr", view.fitted_per_sr},
-                                     {"log10_ratio", log_ratio(view)}});
+            json["views"].push_back(
+                {{"theta_deg", view.theta / kDegree},
+                 {"phi_deg", view.phi / kDegree},
+                 {"brdf_per_sr", view.brdf_per_sr},
+                 {"fitted_per_sr", view.fitted_per_sr},
+                 {"log10_ratio", log_ratio(view.fitted_per_sr, view.brdf_per_sr)}});
+        if (!report.after.views.empty())
+            json["oblique"] = json_of_oblique(report);
         std::cout << json.dump(2) << "\n";
+    }
+
+    static nlohmann::ordered_json json_of_oblique(const Report &report) {
+        nlohmann::ordered_json json{{"lights", report.after.lights},
+                                    {"fitted", report.yarn.has_value()},
+                                    {"l2_cos", report.after.l2_cos}};
+        if (report.yarn)
+            json.update({{"l2_cos_from_above", report.before.l2_cos},
+                         {"pit_weft", report.yarn->pit[0]},
+                         {"pit_warp", report.yarn->pit[1]}});
+        json["views"] = nlohmann::ordered_json::array();
+        for (const ModelledView &view : report.after.views)
+            json["views"].push_back(
+                {{"theta_i_deg", view.row.theta_i / kDegree},
+                 {"phi_i_deg", view.row.phi_i / kDegree},
+                 {"theta_deg", view.row.theta_r / kDegree},
+                 {"phi_deg", view.row.phi_r / kDegree},
+                 {"brdf_per_sr", view.row.brdf_per_sr},
+                 {"fitted_per_sr", view.fitted_per_sr},
+                 {"log10_ratio", log_ratio(view.fitted_per_sr, view.row.brdf_per_sr)}});
+        return json;
     }
 
     CLI::App &fit_;
     std::filesystem::path table_{}, output_{};
-    std::string name_{};
+    std::string name_{}, use_ = "normal";
     double f0_ = 0;
     bool json_ = false;
 };

@@ -20,7 +20,7 @@ class RenderCommand final : public Command {
     explicit RenderCommand(CLI::App &program)
         : app_(*program.add_subcommand("render", "Render a scene file, lamp-free")) {
         app_.footer("Example:\n  tsuya render dress.scene.toml -o dress.exr --spp 128\n"
-                    "Options take the place of the scene's [render]. An interrupted render leaves "
+                    "Options take the place of the scene's values. An interrupted render leaves "
                     "what it has in OUT.exr,\nand OUT.exr.checkpoint for --resume. The lamps of "
                     "the scene's [output] give OUT-LAMP.png.");
         app_.add_option("scene", scene_, "SCENE.toml")->required();
@@ -41,6 +41,9 @@ class RenderCommand final : public Command {
         app_.add_option("--aov", aovs_, "Further pictures: coverage,depth,normal,warp,object")
             ->delimiter(',')
             ->check(CLI::IsMember(aov_names()));
+        app_.add_option("--tolerance-px", tolerance_px_,
+                        "PIXELS that triangles may depart from the limit surface")
+            ->check(CLI::Range(1e-3, 1e3));
         app_.add_flag("--resume", resume_, "Go on from OUT.exr.checkpoint");
         app_.add_flag("--explain", explain_, "Print what would be done, and do not render");
         app_.add_option("--stats", stats_, "FILE.json of what was done")->needs(output);
@@ -49,7 +52,11 @@ class RenderCommand final : public Command {
     bool called() const override { return app_.parsed(); }
 
     Status run(Console &console) override {
-        const scene::SceneFile file = scene::read_scene_file(scene_);
+        scene::SceneFile file = scene::read_scene_file(scene_);
+        for (std::vector<scene::MeshEntry> *entries : {&file.garments, &file.bodies})
+            for (scene::MeshEntry &entry : *entries)
+                if (tolerance_px_)
+                    entry.tolerance_px = tolerance_px_;
         const RenderSettings settings = settings_of(file);
         if (!explain_)
             check_places(file);
@@ -58,6 +65,9 @@ class RenderCommand final : public Command {
             console.warnings(mesh.report, mesh.mesh.string());
         if (explain_) {
             std::cout << explain(plan(built.scene, settings));
+            for (const scene::MeshReport &mesh : built.reports)
+                std::cout << mesh.report.limit_triangles << " triangles of " << mesh.report.faces
+                          << " faces: " << mesh.mesh.string() << "\n";
             return kDone;
         }
         make_places(file);
@@ -146,7 +156,7 @@ class RenderCommand final : public Command {
     CLI::App &app_;
     fs::path scene_{}, output_{}, stats_{};
     std::optional<int> spp_{}, channels_{}, threads_{};
-    std::optional<double> error_{}, seconds_{};
+    std::optional<double> error_{}, seconds_{}, tolerance_px_{};
     std::optional<std::uint32_t> seed_{};
     std::vector<int> crop_{};
     std::vector<std::string> aovs_{};

@@ -39,6 +39,10 @@ class TryOnCommand final : public Command {
                         "METRES that triangles may depart from the limit surface")
             ->check(CLI::PositiveNumber)
             ->excludes("--level");
+        app_.add_option("--tolerance-px", job_.tolerance_px,
+                        "PIXELS of the picture that they may depart")
+            ->check(CLI::Range(1e-3, 1e3))
+            ->excludes("--level");
         app_.add_option("--grain", grain_,
                         "Of a garment without UV: vertical, horizontal, or degrees from it");
         app_.add_option("--azimuth", job_.azimuth_deg, "Of the camera, degrees; 0 sees the front")

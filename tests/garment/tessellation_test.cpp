@@ -100,10 +100,16 @@ TEST(Tessellation, ACameraAsksForPixels) {
     elsewhere.camera.target = {0.5, 0.25, 4};
     EXPECT_EQ(subdivide(mesh, {.view = elsewhere}).triangle.size(), 2 * mesh.face_count());
     // A light behind the sheet throws its shadow into the picture: fine again.
-    elsewhere.lights = {{0.5, 0.25, -5}};
+    elsewhere.lights = {{.centre = {0.5, 0.25, -5}}};
     EXPECT_GT(subdivide(mesh, {.view = elsewhere}).triangle.size(), 400u);
-    elsewhere.lights = {{0.5, 0.25, 5}};
+    elsewhere.lights = {{.centre = {0.5, 0.25, 5}}};
     EXPECT_EQ(subdivide(mesh, {.view = elsewhere}).triangle.size(), 2 * mesh.face_count());
+    // But a light that large also shines from the other side.
+    elsewhere.lights[0].radius = 9;
+    EXPECT_GT(subdivide(mesh, {.view = elsewhere}).triangle.size(), 400u);
+    elsewhere.lights.clear();
+    elsewhere.light_from_everywhere = true;
+    EXPECT_EQ(subdivide(mesh, {.view = elsewhere}).triangle.size(), seen.triangles);
 }
 
 TEST(Tessellation, BadTolerancesAreErrors) {

@@ -71,6 +71,38 @@ TEST(SceneFile, BuildsAScene) {
     EXPECT_NEAR(pixel.y, 10, 1);
 }
 
+TEST(SceneFile, APixelToleranceIsOfTheScenesCamera) {
+    const Scratch scratch;
+    const auto mesh = (data_folder() / "dress" / "dress.obj").string();
+    const auto triangles = [&](const std::string &camera, const std::string &garment,
+                               const std::string &light = "[environment]\n") {
+        const BuiltScene built = build_scene(
+            read(scratch, "[camera]\n" + camera + "[fabrics.silk]\n[garments.dress]\nmesh = \"" +
+                              mesh + "\"\nfabric = \"silk\"\n" + garment + light));
+        EXPECT_EQ(built.reports.at(0).report.limit_triangles,
+                  built.scene.surfaces.at(0).triangle.size());
+        return built.scene.surfaces.at(0).triangle.size();
+    };
+    const std::string near = "eye = [0, 1.2, 0.5]\ntarget = [0, 1.2, 0]\n",
+                      away = "eye = [0, 1.2, 0.5]\ntarget = [0, 1.2, 1]\n",
+                      fine = "tolerance_px = 0.25\n";
+    const std::size_t control = triangles(near, "level = 0\n");
+    // Faces that the camera does not see stay as coarse as the control mesh.
+    EXPECT_EQ(triangles(away, fine), control);
+    const std::size_t seen = triangles(near, fine);
+    EXPECT_GT(seen, control + control / 10);
+    EXPECT_LT(seen, 4 * control);
+    // The picture moves with the mesh.
+    EXPECT_NEAR(static_cast<double>(triangles("eye = [3, 1.2, 0.5]\ntarget = [3, 1.2, 0]\n",
+                                              fine + "translate = [3, 0, 0]\n")),
+                static_cast<double>(seen), 1e-3 * static_cast<double>(seen));
+    // A light behind the dress throws shadows before the camera that looks away.
+    EXPECT_GT(triangles(away, fine, "[lights.k]\ncentre = [0, 1.2, -3]\ntarget = [0, 1.2, 0]\n"),
+              control + control / 10);
+    // Without an eye, the camera frames the dress as level 1 divides it.
+    EXPECT_GT(triangles("", "tolerance_px = 0.1\n"), triangles("", "tolerance_px = 1\n"));
+}
+
 TEST(SceneFile, ReadsEveryKey) {
     const Scratch scratch;
     scratch.write("flat.csv", "wavelength_nm,value\n400,0.5\n700,0.5\n");
@@ -79,7 +111,8 @@ TEST(SceneFile, ReadsEveryKey) {
         "[camera]\neye = [1, 2, 3]\ntarget = [0, 1, 0]\nup = [0, 0, 1]\nvertical_angle_deg = 30\n"
         "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\n[fabrics.b]\nreflectance = 0.25\n"
         "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nlevel = 3\n"
-        "translate = [1, 2, 3]\nvisible = false\nmetres_per_uv = 2\ndefault_grain_deg = 90\n"
+        "tolerance_px = 0.5\ntranslate = [1, 2, 3]\nvisible = false\nmetres_per_uv = "
+        "2\ndefault_grain_deg = 90\n"
         "invented_grain_deg = 45\ngrain.panel = 30\n"
         "[bodies.b]\nmesh = \"cloth.obj\"\nfabric = \"a\"\n"
         "[backdrop]\ncentre = [1, 0, 0]\nazimuth_deg = 90\nwidth = 5\nfront = 2\nback = 3\n"
@@ -101,6 +134,7 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(garment.fabric, 1u);
     EXPECT_EQ(garment.options.metres_per_unit, 0.001);
     EXPECT_EQ(garment.options.subdivide.level, 3);
+    EXPECT_EQ(garment.tolerance_px, 0.5);
     EXPECT_EQ(garment.translate, glm::dvec3(1, 2, 3));
     EXPECT_FALSE(garment.visible);
     EXPECT_EQ(garment.options.metres_per_uv, 2.0);

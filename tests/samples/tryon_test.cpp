@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 
 #include "samples/scratch.h"
 #include "tsuya/scene/data_folder.h"
@@ -69,6 +70,43 @@ TEST(TryOn, CoverageIsTheGarments) {
     EXPECT_LT(covered, 16u * 20u / 2u);
     EXPECT_EQ(*coverage.pixel(0, 0), 0);  // the wall
     EXPECT_EQ(*coverage.pixel(8, 14), 1); // the skirt
+}
+
+/// Departure of the garment's coverage from that of another picture, summed over the pixels.
+double coverage_apart(const Image &a, const Image &b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.data.size(); ++i)
+        sum += std::abs(a.data[i] - b.data[i]);
+    return sum;
+}
+
+TEST(TryOn, APixelToleranceKeepsTheSilhouette) {
+    const auto coverage = [](int level, std::optional<double> pixels) {
+        TryOn job = small_job({});
+        job.body.clear();
+        job.level = level;
+        job.tolerance_px = pixels;
+        job.width = 64;
+        job.height = 80;
+        const Scene scene = [&] {
+            Scene made = make_try_on_scene(job).scene;
+            // Framed alike, so that the pictures can be compared.
+            made.camera.eye = {0, 0.7, 4};
+            made.camera.target = {0, 0.7, 0};
+            return made;
+        }();
+        RenderResult result = render(scene, {.stop = {.samples_per_pixel = 32},
+                                             .channels = 8,
+                                             .max_bounces = 0,
+                                             .aovs = {"object"}});
+        return std::pair(result.image.aovs.at(0), scene.surfaces[0].triangle.size());
+    };
+    const auto [truth, most] = coverage(2, {});
+    const auto [within, fewer] = coverage(1, 0.03);
+    const auto [coarse, fewest] = coverage(0, {});
+    EXPECT_LT(fewer, most / 3);
+    EXPECT_GT(fewer, fewest);
+    EXPECT_LT(coverage_apart(within, truth), 0.5 * coverage_apart(coarse, truth));
 }
 
 TEST(TryOn, KeepsTheFabricsOwnDye) {

@@ -1,5 +1,6 @@
 #include "tsuya/scene/scene_file.h"
 
+#include "pixel_tolerance.h"
 #include "scene_reader.h"
 #include "tsuya/sdk/error.h"
 
@@ -26,6 +27,21 @@ Fabric load_fabric(const FabricEntry &entry) {
     return fabric;
 }
 
+/// A visible mesh as its file has it.
+struct ShownMesh {
+    const MeshEntry *entry;
+    garment::MeshFile file;
+
+    /// With its positions in the scene.
+    garment::LoadedGarment load(const garment::Options &options, const Progress &progress) const {
+        garment::LoadedGarment loaded =
+            garment::load(file, options, entry->mesh.string(), progress);
+        for (glm::dvec3 &p : loaded.surface.position)
+            p += entry->translate;
+        return loaded;
+    }
+};
+
 } // namespace
 
 SceneFile read_scene_file(const std::filesystem::path &path) {
@@ -42,14 +58,17 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
     Scene &scene = built.scene;
     for (const FabricEntry &entry : file.fabrics)
         scene.fabrics.push_back(load_fabric(entry));
+    std::vector<ShownMesh> meshes;
     std::vector<glm::dvec3> framed;
     for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
         for (const MeshEntry &entry : *entries) {
             if (!entry.visible)
                 continue;
-            garment::LoadedGarment loaded = garment::load(entry.mesh, entry.options, progress);
-            for (glm::dvec3 &p : loaded.surface.position)
-                p += entry.translate;
+            meshes.push_back({&entry, garment::read_mesh(entry.mesh)});
+            garment::Options options = entry.options;
+            if (entry.tolerance_px)
+                options.subdivide.level = kFramingLevel;
+            garment::LoadedGarment loaded = meshes.back().load(options, progress);
             framed.insert(framed.end(), loaded.surface.position.begin(),
                           loaded.surface.position.end());
             built.reports.push_back({entry.mesh, std::move(loaded.report)});
@@ -70,6 +89,16 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
         for (Problem &problem : problems)
             problem.where = file.path.string() + ": " + problem.where;
         throw Error(std::move(problems));
+    }
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const MeshEntry &entry = *meshes[m].entry;
+        if (!entry.tolerance_px)
+            continue;
+        garment::Options options = entry.options;
+        options.subdivide.view = view_of(scene, framed, *entry.tolerance_px, entry.translate);
+        garment::LoadedGarment loaded = meshes[m].load(options, progress);
+        scene.surfaces[m] = std::move(loaded.surface);
+        built.reports[m].report = std::move(loaded.report);
     }
     return built;
 }

@@ -160,6 +160,7 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         entry.options.subdivide.level = section.integer("level", 0, 8).value_or(1);
         if (const auto tolerance_mm = section.number("tolerance_mm", kSmallest, kLargest))
             entry.options.subdivide.tolerance = 1e-3 * *tolerance_mm;
+        entry.tolerance_px = section.number("tolerance_px", 1e-3, 1e3);
         entry.translate = section.vector("translate").value_or(glm::dvec3(0));
         entry.visible = section.flag("visible").value_or(true);
         entry.options.want_frames = yarn;

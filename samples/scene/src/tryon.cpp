@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "pixel_tolerance.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/sheet.h"
@@ -128,33 +129,53 @@ TryOn sample_try_on(const fs::path &data) {
 
 TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
     TryOnScene made;
+    Scene &scene = made.scene;
     Fabric fabric = read_fabric(job.fabric);
     garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
-                             .subdivide = {.level = job.level, .tolerance = job.tolerance},
+                             .subdivide = {.level = job.tolerance_px ? kFramingLevel : job.level,
+                                           .tolerance = job.tolerance},
                              .frames = {.invented_grain = job.invented_grain}};
-    if (!fabric.bard)
-        options.want_frames = false;
-    garment::LoadedGarment garment = garment::load(job.garment, options, progress);
-    made.report = std::move(garment.report);
-    std::vector<glm::dvec3> points = garment.surface.position;
-    add_object(made.scene, "garment", std::move(garment.surface), std::move(fabric));
+    garment::Options body_options = options;
+    body_options.want_frames = false;
+    options.want_frames = fabric.bard.has_value();
+
+    const garment::MeshFile garment = garment::read_mesh(job.garment);
+    garment::MeshFile body;
+    const auto load_garment = [&] {
+        garment::LoadedGarment loaded =
+            garment::load(garment, options, job.garment.string(), progress);
+        made.report = std::move(loaded.report);
+        return std::move(loaded.surface);
+    };
+    const auto load_body = [&] {
+        return garment::load(body, body_options, job.body.string(), progress).surface;
+    };
+    add_object(scene, "garment", load_garment(), std::move(fabric));
+    std::vector<glm::dvec3> points = scene.surfaces[0].position;
     if (!job.body.empty()) {
-        options.want_frames = false;
-        garment::LoadedGarment body = garment::load(job.body, options, progress);
-        points.insert(points.end(), body.surface.position.begin(), body.surface.position.end());
-        add_object(made.scene, "body", std::move(body.surface),
+        body = garment::read_mesh(job.body);
+        add_object(scene, "body", load_body(),
                    {.name = "body", .dye = Spectrum::constant(kBodyReflectance)});
+        const std::vector<glm::dvec3> &more = scene.surfaces[1].position;
+        points.insert(points.end(), more.begin(), more.end());
     }
     Bounds bounds;
     bounds.add(points);
-    made.scene.camera = frame_points(points, {.azimuth = job.azimuth_deg * kDegree,
-                                              .elevation = kElevation,
-                                              .vertical_angle = kAngleOfView,
-                                              .margin = 0.07,
-                                              .width = job.width,
-                                              .height = job.height});
-    light(made.scene, bounds, job.azimuth_deg * kDegree);
-    check_scene(made.scene);
+    scene.camera = frame_points(points, {.azimuth = job.azimuth_deg * kDegree,
+                                         .elevation = kElevation,
+                                         .vertical_angle = kAngleOfView,
+                                         .margin = 0.07,
+                                         .width = job.width,
+                                         .height = job.height});
+    light(scene, bounds, job.azimuth_deg * kDegree);
+    if (job.tolerance_px) {
+        options.subdivide.view = view_of(scene, points, *job.tolerance_px, glm::dvec3(0.0));
+        body_options.subdivide.view = options.subdivide.view;
+        scene.surfaces[0] = load_garment();
+        if (!job.body.empty())
+            scene.surfaces[1] = load_body();
+    }
+    check_scene(scene);
     return made;
 }
 

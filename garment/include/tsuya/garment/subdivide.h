@@ -20,13 +20,23 @@ namespace tsuya::garment {
 // [CatmullClark], [LoopScheme]
 enum class Scheme { automatic, catmark, loop };
 
-/// A camera and lights that say how fine each face must be.
+/// A light as a sphere that holds it, metres.
+struct ViewLight {
+    glm::dvec3 centre{0.0};
+    double radius = 0.0; ///< >= 0
+};
+
+/// A camera and lights that say how fine each face must be. Faces outside the picture whose shadows
+/// cannot fall into it stay as coarse as the control mesh; the others are as fine as their shadow
+/// needs.
 struct ViewTolerance {
     Camera camera{};
     double pixels = 0.25; ///< largest departure from the limit surface, in pixels
-    /// Places of lights, metres. Faces outside the picture whose shadows cannot fall into it stay
-    /// as coarse as the control mesh; the others are as fine as their shadow needs.
-    std::vector<glm::dvec3> lights{};
+    std::vector<ViewLight> lights{};
+    /// Sharp shadows from any side, such as of a pictured environment: faces outside the picture
+    /// are as fine as if they were seen.
+    bool light_from_everywhere = false;
+    double nearest = 1e-3; ///< metres, > 0: nothing in the picture is nearer to the camera
 };
 
 /// How the limit surface is sampled. Hems stay smooth curves that interpolate sharp corners (a

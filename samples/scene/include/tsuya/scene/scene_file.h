@@ -36,6 +36,7 @@ struct MeshEntry {
     std::filesystem::path mesh{};
     std::size_t fabric = 0; ///< into SceneFile::fabrics
     garment::Options options{};
+    std::optional<double> tolerance_px{}; ///< of the scene's camera; in place of the level
     glm::dvec3 translate{0, 0, 0}; ///< metres
     bool visible = true;
 };
@@ -85,7 +86,8 @@ struct BuiltScene {
     std::vector<MeshReport> reports{}; ///< one a visible mesh
 };
 
-/// Loads the meshes and puts the scene together. Throws Error as garment::load, read_fabric and
+/// Loads the meshes and puts the scene together. A camera that frames by itself frames meshes with
+/// `tolerance_px` as level 1 divides them. Throws Error as garment::load, read_fabric and
 /// check_scene; Interrupted where `progress` says stop.
 BuiltScene build_scene(const SceneFile &file, const Progress &progress = {});
 

@@ -30,6 +30,7 @@ struct TryOn {
     std::filesystem::path body{};           ///< a mesh; empty: none
     std::filesystem::path fabric{};         ///< F.fabric.toml
     std::optional<double> tolerance{};      ///< metres; in place of `level`, see SubdivideOptions
+    std::optional<double> tolerance_px{};   ///< pixels; in place of `level`, see ViewTolerance
     std::optional<double> invented_grain{}; ///< of a garment without UV, see FrameOptions
     std::string unit = "m";                 ///< of garment and body, see garment::metres_per
     int level = 1;                          ///< of subdivision, 0 to 8

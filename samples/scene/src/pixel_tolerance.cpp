@@ -1,0 +1,40 @@
+#include "pixel_tolerance.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "tsuya/scene/studio.h"
+
+namespace tsuya::scene {
+namespace {
+
+double nearest_in_picture(const Camera &camera, const std::vector<glm::dvec3> &points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3 &p : points) {
+        const glm::dvec3 pixel = project_point(camera, p);
+        if (pixel.z > 0 && pixel.x >= 0 && pixel.x <= camera.width && pixel.y >= 0 &&
+            pixel.y <= camera.height)
+            nearest = std::min(nearest, glm::distance(p, camera.eye));
+    }
+    return nearest;
+}
+
+} // namespace
+
+garment::ViewTolerance view_of(const Scene &scene, const std::vector<glm::dvec3> &points,
+                               double pixels, const glm::dvec3 &translate) {
+    garment::ViewTolerance view{.camera = scene.camera, .pixels = pixels};
+    const double nearest = nearest_in_picture(scene.camera, points);
+    if (nearest < std::numeric_limits<double>::infinity())
+        view.nearest = std::max(0.5 * nearest, view.nearest);
+    view.camera.eye -= translate;
+    view.camera.target -= translate;
+    for (const RectangleLight &light : scene.rectangles)
+        view.lights.push_back(
+            {.centre = light.corner + 0.5 * (light.edge_u + light.edge_v) - translate,
+             .radius = 0.5 * glm::length(light.edge_u + light.edge_v)});
+    view.light_from_everywhere = scene.environment && scene.environment->picture;
+    return view;
+}
+
+} // namespace tsuya::scene

@@ -1,0 +1,20 @@
+#pragma once
+// Tessellation as fine as the camera of a scene needs.
+
+#include <vector>
+
+#include "tsuya/garment/subdivide.h"
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya::scene {
+
+// How meshes are divided before the camera is known, which frames what this gives.
+inline constexpr int kFramingLevel = 1;
+
+// What the camera and the lights of a scene ask of a mesh that is moved by `translate`. The points
+// are those of all meshes, as they stand in the scene; half the distance of the nearest that is in
+// the picture is taken to be free.
+garment::ViewTolerance view_of(const Scene &scene, const std::vector<glm::dvec3> &points,
+                               double pixels, const glm::dvec3 &translate);
+
+} // namespace tsuya::scene
