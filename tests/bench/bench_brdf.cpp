@@ -1,17 +1,21 @@
-// Nanoseconds of one call of the reflectance models on one core with the error of their tables, the
-// variance of their draws, and the time and error of fits by the number of views.
+// Every model in the same terms: nanoseconds of one call on one core with the error of its tables,
+// the variance of its draws, reciprocity, energy; and the time and error of fits by the number of
+// views.
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <string>
 #include <vector>
+
+#include <malloc.h>
 
 #include <benchmark/benchmark.h>
 
 #include "sdk/synthetic_table.h"
-#include "tsuya/sdk/brdf.h"
 #include "tsuya/sdk/model.h"
 
 #if defined(__x86_64__) && !defined(__clang__)
@@ -28,6 +32,7 @@ using namespace tsuya;
 constexpr std::size_t kDirections = 4096;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr float kPi = 3.14159265f;
+constexpr double kF0 = 0.05;
 
 // Even over the upper hemisphere.
 std::vector<glm::vec3> even_directions(unsigned seed, std::size_t count = kDirections) {
@@ -50,56 +55,89 @@ const std::vector<glm::vec3> &views() {
     static const auto all = even_directions(2);
     return all;
 }
-std::vector<glm::vec3> random_points() {
-    std::mt19937 generator(3);
-    std::uniform_real_distribution<float> uniform;
-    std::vector<glm::vec3> made;
-    for (std::size_t i = 0; i < kDirections; ++i)
-        made.emplace_back(uniform(generator), uniform(generator), uniform(generator));
-    return made;
+const std::vector<glm::vec3> &random_points() {
+    static const auto all = [] {
+        std::mt19937 generator(3);
+        std::uniform_real_distribution<float> uniform;
+        std::vector<glm::vec3> made;
+        for (std::size_t i = 0; i < kDirections; ++i)
+            made.emplace_back(uniform(generator), uniform(generator), uniform(generator));
+        return made;
+    }();
+    return all;
 }
 
 const Bard &satin() {
     static const Bard bard = test::bard_of(test::satin_cloth());
     return bard;
 }
-const TakedaBrdf &takeda() {
-    static const TakedaBrdf model(satin(), 0.05);
-    return model;
+
+// What a model's tables stand for under light from straight above, reckoned without them: the
+// surface through the views; of the yarn model the sum over its slopes; nothing where a model has
+// no table, or only the measured one.
+using Plain = std::function<double(const glm::vec3 &to_viewer)>;
+template <class Model> Plain without_tables(const Model &) {
+    return [](const glm::vec3 &view) { return satin().at(view); };
 }
-const GgxBrdf &ggx() {
-    static const GgxBrdf model({.alpha_weft = 0.42, .alpha_warp = 0.12});
-    return model;
+Plain without_tables(const GgxBrdf &) { return {}; }
+Plain without_tables(const LambertBrdf &) { return {}; }
+Plain without_tables(const TabulatedBrdf &) { return {}; }
+Plain without_tables(const YarnBrdf &model) {
+    return [lobes = model.lobes(), optics = YarnOptics(model.lobes().f0)](const glm::vec3 &view) {
+        const glm::vec3 up(0, 0, 1);
+        const YarnHalf half = optics.half(up, view);
+        double sum = lobes.even / std::numbers::pi;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const auto pit = static_cast<float>(lobes.pit[axis]);
+            const YarnReach reach = axis == 0 ? optics.reach<0>(pit, half, up, view)
+                                              : optics.reach<1>(pit, half, up, view);
+            double facets = 0;
+            for (int k = 0; k < kYarnSlopes; ++k)
+                facets +=
+                    lobes.surface[axis][static_cast<std::size_t>(k)] *
+                    yarn_lobe(static_cast<int>(axis), yarn_slope(k), lobes.roughness, half.half);
+            sum += facets * reach.times_cosine(1 / view.z, 1 / view.z);
+        }
+        return sum;
+    };
 }
 
-// Root mean square of the relative error of the tables against the surface they were made of, for
-// light from straight above, and the largest: what resolution and precision cost.
-void report_table_error(benchmark::State &state) {
+// Of the heap, in use.
+double used_bytes() {
+    const struct mallinfo2 info = mallinfo2();
+    return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
+// Root mean square of the relative error of the tables, and the largest: what resolution and
+// precision cost. NaN where there are none: the CSV takes no columns that its first line has not.
+template <class Model> void report_table_error(benchmark::State &state, const Model &model) {
     double squares = 0, largest = 0;
-    for (const glm::vec3 &view : views()) {
-        const double exact = satin().at(view);
-        const double error = takeda().evaluate({0, 0, 1}, view) / exact - 1;
-        squares += error * error;
-        largest = std::max(largest, std::abs(error));
-    }
+    if (const Plain plain = without_tables(model))
+        for (const glm::vec3 &view : views()) {
+            const double error = model.evaluate({0, 0, 1}, view) / plain(view) - 1;
+            squares += error * error;
+            largest = std::max(largest, std::abs(error));
+        }
+    else
+        squares = largest = NAN;
     state.counters["error"] = std::sqrt(squares / kDirections);
     state.counters["error_max"] = largest;
-    state.counters["table_bytes"] = static_cast<double>(takeda().table_bytes());
+    const double before = used_bytes();
+    const Model copy = model;
+    benchmark::DoNotOptimize(&copy);
+    state.counters["bytes"] = static_cast<double>(sizeof(Model)) + used_bytes() - before;
 }
 
-// The loops below make a call for every direction.
+// The loops below make a call for every direction; `ns_a_call` is the time of one.
 void report_one_call(benchmark::State &state) {
-    // The CSV of Google Benchmark takes no columns that its first line has not
-    for (const char *column : {"error", "error_max", "table_bytes"})
+    for (const char *column : {"error", "error_max", "bytes"})
         state.counters[column] = NAN;
     state.counters["ns_a_call"] = benchmark::Counter(static_cast<double>(kDirections) * 1e-9,
                                                      benchmark::Counter::kIsIterationInvariantRate |
                                                          benchmark::Counter::kInvert);
 }
 
-// Sums over all directions; `ns_a_call` is the time of one.
 template <class Call> void each(benchmark::State &state, const Call &call) {
-    call(0); // the models are made at their first use
     for (auto _ : state) {
         float sum = 0;
         for (std::size_t i = 0; i < kDirections; ++i)
@@ -109,49 +147,28 @@ template <class Call> void each(benchmark::State &state, const Call &call) {
     report_one_call(state);
 }
 
-void takeda_evaluate(benchmark::State &state) {
-    each(state, [](std::size_t i) { return takeda().evaluate_cos(lights()[i], views()[i]); });
-    report_table_error(state);
+// One addition after the other: what a nanosecond is worth on this machine at this moment.
+void one_addition(benchmark::State &state) {
+    for (auto _ : state) {
+        std::size_t x = 1;
+        for (std::size_t i = 0; i < kDirections; ++i) {
+            x += i;
+            benchmark::DoNotOptimize(x);
+        }
+    }
+    report_one_call(state);
 }
 
-template <class Model> void in_batches(benchmark::State &state, const Model &model) {
-    const auto size = static_cast<std::size_t>(state.range(0));
+template <class Batch>
+void in_batches(benchmark::State &state, std::size_t size, const Batch &batch) {
     std::vector<float> f_cos(kDirections);
     for (auto _ : state) {
         for (std::size_t i = 0; i < kDirections; i += size)
-            model(std::span(lights()).subspan(i, size), std::span(views()).subspan(i, size),
+            batch(std::span(lights()).subspan(i, size), std::span(views()).subspan(i, size),
                   std::span(f_cos).subspan(i, size));
         benchmark::ClobberMemory();
     }
     report_one_call(state);
-}
-void takeda_evaluate_batch(benchmark::State &state) {
-    in_batches(state, [](auto l, auto v, auto f) { takeda().evaluate_cos(l, v, f); });
-    report_table_error(state);
-}
-
-void takeda_weigh(benchmark::State &state) {
-    each(state, [](std::size_t i) { return takeda().weigh(lights()[i], views()[i]).pdf_per_sr; });
-}
-
-template <class Draw> void draws(benchmark::State &state, const Draw &draw) {
-    const auto u = random_points();
-    each(state, [&](std::size_t i) {
-        const auto s = draw(views()[i], u[i]);
-        return s ? s->weight : 0.0f;
-    });
-}
-void takeda_sample(benchmark::State &state) {
-    draws(state, [](const auto &v, const auto &u) { return takeda().sample(v, u); });
-}
-void takeda_sample_adjoint(benchmark::State &state) {
-    draws(state, [](const auto &l, const auto &u) { return takeda().sample_adjoint(l, u); });
-}
-void ggx_sample(benchmark::State &state) {
-    draws(state, [](const auto &v, const auto &u) { return ggx().sample(v, u); });
-}
-void ggx_evaluate(benchmark::State &state) {
-    each(state, [](std::size_t i) { return ggx().evaluate_cos(lights()[i], views()[i]); });
 }
 
 // The same model in a loop that the compiler vectorises, from the same arrays of directions.
@@ -180,78 +197,114 @@ void ggx_block(const glm::vec3 *light, const glm::vec3 *view, float *f_cos, std:
     }
     std::copy_n(result, count, f_cos);
 }
-void ggx_evaluate_batch(benchmark::State &state) {
-    in_batches(state,
-               [](auto l, auto v, auto f) { ggx_block(l.data(), v.data(), f.data(), f.size()); });
-}
 
-// One addition after the other: what a nanosecond is worth on this machine at this moment.
-void one_addition(benchmark::State &state) {
-    for (auto _ : state) {
-        std::size_t x = 1;
-        for (std::size_t i = 0; i < kDirections; ++i) {
-            x += i;
-            benchmark::DoNotOptimize(x);
-        }
-    }
-    report_one_call(state);
-}
-
-// Relative variance of the weights for a fixed direction at so many degrees, in the weft plane and
-// in the warp plane: 0 where every draw tells all.
 template <class Model>
-void report_variance(benchmark::State &state, const Model &model, bool adjoint) {
-    const auto u = random_points();
-    const double theta = static_cast<double>(state.range(0)) * kDegree;
-    const char *const names[] = {"variance_weft", "variance_warp"};
-    const glm::vec3 fixed[] = {{std::sin(theta), 0, std::cos(theta)},
-                               {0, std::sin(theta), std::cos(theta)}};
-    for (auto _ : state)
-        for (int plane = 0; plane < 2; ++plane) {
-            double sum = 0, squares = 0;
-            for (int turn = 0; turn < 16; ++turn)
-                for (const glm::vec3 &point : u) {
-                    const glm::vec3 moved = glm::fract(point + glm::vec3(0.618f, 0.414f, 0.732f) *
-                                                                   static_cast<float>(turn));
-                    const auto s = adjoint ? model.sample_adjoint(fixed[plane], moved)
-                                           : model.sample(fixed[plane], moved);
-                    sum += s ? s->weight : 0;
-                    squares += s ? double(s->weight) * s->weight : 0;
-                }
-            const double n = 16.0 * static_cast<double>(u.size());
-            state.counters[names[plane]] = squares * n / (sum * sum) - 1;
-        }
+concept InBatches = requires(const Model &m, std::span<const glm::vec3> d, std::span<float> f) {
+    m.evaluate_cos(d, d, f);
+};
+
+void add(const std::string &name, const std::function<void(benchmark::State &)> &run) {
+    benchmark::RegisterBenchmark(name.c_str(), run);
 }
-void takeda_fixed_view(benchmark::State &state) { report_variance(state, takeda(), false); }
-void takeda_fixed_light(benchmark::State &state) { report_variance(state, takeda(), true); }
+void add_once(const std::string &name, const std::function<void(benchmark::State &)> &run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)->Iterations(1);
+}
+
+template <class Model> void add_times(const std::string &name, const Model &model) {
+    add("evaluate/" + name, [&model](benchmark::State &state) {
+        each(state, [&](std::size_t i) { return model.evaluate_cos(lights()[i], views()[i]); });
+        report_table_error(state, model);
+    });
+    if constexpr (InBatches<Model>)
+        for (const std::size_t size : {8u, 16u})
+            add("evaluate-" + std::to_string(size) + "/" + name,
+                [&model, size](benchmark::State &state) {
+                    in_batches(state, size,
+                               [&](auto l, auto v, auto f) { model.evaluate_cos(l, v, f); });
+                });
+    add("weigh/" + name, [&model](benchmark::State &state) {
+        each(state, [&](std::size_t i) {
+            const WeighedLight light = model.weigh(lights()[i], views()[i]);
+            return light.f_cos + light.pdf_per_sr;
+        });
+    });
+    for (const bool adjoint : {false, true})
+        add((adjoint ? "sample_adjoint/" : "sample/") + name,
+            [&model, adjoint](benchmark::State &state) {
+                const auto &u = random_points();
+                each(state, [&](std::size_t i) {
+                    const auto s = adjoint ? model.sample_adjoint(views()[i], u[i])
+                                           : model.sample(views()[i], u[i]);
+                    return s ? s->weight + s->pdf_per_sr : 0.0f;
+                });
+            });
+}
+
+// The variance of what `weight` gives over its mean squared: 0 where every draw tells all.
+template <class Weight> double relative_variance(const Weight &weight) {
+    constexpr int kTurns = 16;
+    double sum = 0, squares = 0;
+    for (int turn = 0; turn < kTurns; ++turn)
+        for (const glm::vec3 &point : random_points()) {
+            const double w = weight(
+                glm::fract(point + glm::vec3(0.618f, 0.414f, 0.732f) * static_cast<float>(turn)));
+            sum += w;
+            squares += w * w;
+        }
+    return squares * kTurns * kDirections / (sum * sum) - 1;
+}
+
+// Draws for a fixed view or a fixed light at so many degrees in three planes; beside them draws by
+// the cosine alone, and the share of null samples.
+template <class Model>
+void report_variance(benchmark::State &state, const Model &model, bool adjoint, int degrees) {
+    const double theta = degrees * kDegree, half = std::sqrt(0.5);
+    struct Plane {
+        std::string name;
+        double x, y;
+    };
+    double nulls = 0;
+    for (auto _ : state)
+        for (const Plane &plane : {Plane{"weft", 1, 0}, {"bias", half, half}, {"warp", 0, 1}}) {
+            const glm::vec3 fixed(plane.x * std::sin(theta), plane.y * std::sin(theta),
+                                  std::cos(theta));
+            state.counters[plane.name] = relative_variance([&](const glm::vec3 &u) {
+                const auto s = adjoint ? model.sample_adjoint(fixed, u) : model.sample(fixed, u);
+                nulls += s ? 0 : 1;
+                return s ? s->weight : 0.0f;
+            });
+            state.counters["cosine_" + plane.name] = relative_variance([&](const glm::vec3 &u) {
+                const float phi = 2 * kPi * u.x, s = std::sqrt(u.y);
+                const glm::vec3 drawn(s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - u.y));
+                return kPi *
+                       (adjoint ? model.evaluate(fixed, drawn) : model.evaluate(drawn, fixed));
+            });
+        }
+    state.counters["nulls"] = nulls / (3 * 16 * kDirections);
+}
 
 // |f(a, b) - f(b, a)| over the larger, for random pairs: mean, and the value that one in twenty
-// exceeds. And how far the energy of light from one direction had to be limited.
+// exceeds. And the largest albedo before it was limited, where the model limits it.
 template <class Model> void report_reciprocity(benchmark::State &state, const Model &model) {
     std::vector<double> off;
-    for (auto _ : state) {
-        off.clear();
+    for (auto _ : state)
         for (std::size_t i = 0; i < kDirections; ++i) {
             const double a = model.evaluate(lights()[i], views()[i]);
             const double b = model.evaluate(views()[i], lights()[i]);
             off.push_back(std::abs(a - b) / std::max({a, b, 1e-30}));
         }
-    }
     std::sort(off.begin(), off.end());
     state.counters["violation"] = std::accumulate(off.begin(), off.end(), 0.0) / kDirections;
     state.counters["violation_p95"] = off[kDirections * 95 / 100];
-    state.counters["unlimited_albedo"] = model.unlimited_albedo();
-}
-void takeda_reciprocity(benchmark::State &state) { report_reciprocity(state, takeda()); }
-void half_vector_reciprocity(benchmark::State &state) {
-    static const HalfVectorBrdf model(satin(), 0.05);
-    report_reciprocity(state, model);
+    double albedo = NAN;
+    if constexpr (requires { model.unlimited_albedo(); })
+        albedo = model.unlimited_albedo();
+    state.counters["unlimited_albedo"] = albedo;
 }
 
-// Views every so many tenths of a degree in theta and phi: time of the fit; error of the surface,
-// and of the model under light at 45 degrees, both as l2_cos against the truth they were made of.
-void bard_fit(benchmark::State &state) {
-    const double step = static_cast<double>(state.range(0)) / 10;
+// Views every so many degrees in theta and phi: time of the fit; error of the surface, and of
+// models under lights at 45 degrees, all as l2_cos against the truth they were made of.
+void bard_fit(benchmark::State &state, double step) {
     const test::Cloth cloth = test::satin_cloth();
     const ReflectanceTable table = test::normal_table(cloth, test::even_grid(step, step));
     Fabric fabric{.name = "satin", .f0 = cloth.f0};
@@ -271,32 +324,68 @@ void bard_fit(benchmark::State &state) {
     state.counters["views"] = static_cast<double>(table.rows.size());
     state.counters["error"] =
         error(0, [&](const auto &, const auto &v) { return fabric.bard->at(v); });
-    state.counters["model_error"] = error(45, make_model("half_vector", fabric, "satin"));
+    for (const char *model : {"yarn", "half_vector", "takeda"})
+        state.counters[model] = error(45, make_model(model, fabric, "satin"));
 }
 
-BENCHMARK(takeda_evaluate);
-BENCHMARK(one_addition);
-BENCHMARK(takeda_evaluate_batch)->Arg(8)->Arg(16);
-BENCHMARK(takeda_weigh);
-BENCHMARK(takeda_sample);
-BENCHMARK(takeda_sample_adjoint);
-BENCHMARK(ggx_evaluate);
-BENCHMARK(ggx_evaluate_batch)->Arg(8)->Arg(16);
-BENCHMARK(ggx_sample);
-BENCHMARK(takeda_fixed_view)->Arg(0)->Arg(30)->Arg(60)->Arg(75)->Arg(85)->Arg(89)->Iterations(1);
-BENCHMARK(takeda_fixed_light)->Arg(0)->Arg(30)->Arg(60)->Arg(75)->Arg(85)->Arg(89)->Iterations(1);
-BENCHMARK(takeda_reciprocity)->Iterations(1);
-BENCHMARK(half_vector_reciprocity)->Iterations(1);
-BENCHMARK(bard_fit)
-    ->Arg(25)
-    ->Arg(50)
-    ->Arg(75)
-    ->Arg(100)
-    ->Arg(150)
-    ->Arg(200)
-    ->Arg(300)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->Iterations(1);
+struct Named {
+    std::string name;
+    Brdf brdf;
+};
+
+std::vector<Named> every_model() {
+    Fabric fabric{.name = "satin", .bard = satin(), .f0 = kF0};
+    fabric.ggx = GgxFacets{.alpha_weft = 0.42, .alpha_warp = 0.12};
+    fabric.table = test::paper_table(test::satin_cloth(), 6, 10);
+    std::vector<Named> all;
+    for (const ModelName &model : model_names()) {
+        const std::string name(model.name);
+        all.push_back({name, make_brdf(name, fabric, name)});
+    }
+    return all;
+}
+
+void add_all(const std::vector<Named> &models) {
+    add("one_addition", one_addition);
+    for (const auto &[name, brdf] : models)
+        std::visit(
+            [&, &label = name](const auto &model) {
+                add_times(label, model);
+                add_once("reciprocity/" + label,
+                         [&](benchmark::State &state) { report_reciprocity(state, model); });
+                for (const bool adjoint : {false, true})
+                    for (const int degrees : {0, 30, 60, 75, 85, 89})
+                        add_once((adjoint ? "fixed_light/" : "fixed_view/") + label + "/" +
+                                     std::to_string(degrees),
+                                 [&model, adjoint, degrees](benchmark::State &state) {
+                                     report_variance(state, model, adjoint, degrees);
+                                 });
+            },
+            brdf);
+    for (const std::size_t size : {8u, 16u})
+        add("evaluate-" + std::to_string(size) + "/ggx_vectorised",
+            [size](benchmark::State &state) {
+                in_batches(state, size, [](auto l, auto v, auto f) {
+                    ggx_block(l.data(), v.data(), f.data(), f.size());
+                });
+            });
+    for (const int tenths : {25, 50, 75, 100, 150, 200, 300})
+        benchmark::RegisterBenchmark(
+            ("bard_fit/" + std::to_string(tenths)).c_str(),
+            [tenths](benchmark::State &state) { bard_fit(state, tenths / 10.0); })
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime()
+            ->Iterations(1);
+}
 
 } // namespace
+
+int main(int count, char **arguments) {
+    benchmark::Initialize(&count, arguments);
+    if (benchmark::ReportUnrecognizedArguments(count, arguments))
+        return 1;
+    const std::vector<Named> models = every_model();
+    add_all(models);
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}
