@@ -77,6 +77,11 @@ bool Section::has(std::string_view key) const {
     return table_of(table_).contains(key);
 }
 
+bool Section::is_text(std::string_view key) const {
+    const toml::node *const node = table_of(table_).get(key);
+    return node && node->is_string();
+}
+
 std::string Section::where(std::string_view key) const {
     const toml::table &table = table_of(table_);
     if (const toml::node *node = key.empty() ? nullptr : table.get(key))

@@ -109,7 +109,8 @@ TEST(SceneFile, ReadsEveryKey) {
     const SceneFile file = read(
         scratch,
         "[camera]\neye = [1, 2, 3]\ntarget = [0, 1, 0]\nup = [0, 0, 1]\nvertical_angle_deg = 30\n"
-        "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\n[fabrics.b]\nreflectance = 0.25\n"
+        "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\ntransmittance = 0.2\nweft_tint = \"#ff0000\"\n"
+        "warp_tint = \"flat.csv\"\nspecular_tint = 0.9\n[fabrics.b]\nreflectance = 0.25\n"
         "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nlevel = 3\n"
         "tolerance_px = 0.5\ntranslate = [1, 2, 3]\nvisible = false\nmetres_per_uv = "
         "2\ndefault_grain_deg = 90\n"
@@ -128,6 +129,11 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(file.camera->up, glm::dvec3(0, 0, 1));
     EXPECT_NEAR(file.camera->vertical_angle, 30 * kDegree, 1e-12);
     EXPECT_NEAR(file.fabrics[0].dye->at(500), 0.5, 1e-12);
+    EXPECT_EQ(file.fabrics[0].transmittance, Spectrum::constant(0.2));
+    EXPECT_GT(file.fabrics[0].weft_tint->at(650), 2 * file.fabrics[0].weft_tint->at(450));
+    EXPECT_NEAR(file.fabrics[0].warp_tint->at(500), 0.5, 1e-12);
+    EXPECT_EQ(file.fabrics[0].specular_tint, Spectrum::constant(0.9));
+    EXPECT_FALSE(file.fabrics[1].transmittance || file.fabrics[1].weft_tint);
     EXPECT_EQ(file.fabrics[0].f0, 0.1);
     EXPECT_EQ(file.fabrics[1].dye->at(500), 0.25);
     const MeshEntry &garment = file.garments.at(0);

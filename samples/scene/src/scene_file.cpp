@@ -24,6 +24,14 @@ Fabric load_fabric(const FabricEntry &entry) {
         fabric.dye = *entry.dye;
     if (entry.f0)
         fabric.f0 = entry.f0;
+    if (entry.transmittance)
+        fabric.transmittance = *entry.transmittance;
+    if (entry.specular_tint)
+        fabric.specular_tint = *entry.specular_tint;
+    if (entry.weft_tint)
+        fabric.weft_tint = entry.weft_tint;
+    if (entry.warp_tint)
+        fabric.warp_tint = entry.warp_tint;
     return fabric;
 }
 

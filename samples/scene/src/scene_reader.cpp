@@ -45,16 +45,26 @@ std::filesystem::path SceneReader::existing_file(const Section &section, std::st
 }
 
 std::optional<Spectrum> SceneReader::reflectance(const Section &section) {
-    std::optional<Spectrum> result;
     const auto constant = section.number("reflectance", 0, 1);
+    if (!section.has("dye"))
+        return constant ? std::optional(Spectrum::constant(*constant)) : std::nullopt;
     if (constant)
-        result = Spectrum::constant(*constant);
-    if (const auto spec = section.text("dye")) {
-        if (constant)
-            section.problem("dye", "dye and reflectance are both given", "expected one of them");
-        note(section, "dye", [&] { result = parse_dye(*spec, folder_); });
-    }
+        section.problem("dye", "dye and reflectance are both given", "expected one of them");
+    return dyed(section, "dye");
+}
+
+std::optional<Spectrum> SceneReader::dyed(const Section &section, const char *key) {
+    std::optional<Spectrum> result;
+    if (const auto spec = section.text(key))
+        note(section, key, [&] { result = parse_dye(*spec, folder_); });
     return result;
+}
+
+std::optional<Spectrum> SceneReader::colour(const Section &section, const char *key) {
+    if (section.is_text(key))
+        return dyed(section, key);
+    const auto constant = section.number(key, 0, 1);
+    return constant ? std::optional(Spectrum::constant(*constant)) : std::nullopt;
 }
 
 LightGroupIndex SceneReader::group(const Section &section, const std::string &otherwise) {
@@ -135,6 +145,10 @@ void SceneReader::read_fabrics() {
         FabricEntry entry{.name = name, .file = existing_file(section, "file", false)};
         entry.dye = reflectance(section);
         entry.f0 = section.number("f0", kSmallest, 1);
+        entry.transmittance = colour(section, "transmittance");
+        entry.specular_tint = colour(section, "specular_tint");
+        entry.weft_tint = colour(section, "weft_tint");
+        entry.warp_tint = colour(section, "warp_tint");
         file_.fabrics.push_back(std::move(entry));
     }
 }

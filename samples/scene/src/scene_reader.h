@@ -38,6 +38,9 @@ class SceneReader {
     LightGroupIndex group(const Section &section, const std::string &otherwise);
     // `dye` or `reflectance`.
     std::optional<Spectrum> reflectance(const Section &section);
+    std::optional<Spectrum> dyed(const Section &section, const char *key);
+    // A number from 0 to 1, or a text as `dye` has it.
+    std::optional<Spectrum> colour(const Section &section, const char *key);
     std::filesystem::path existing_file(const Section &section, std::string_view key,
                                         bool required);
     // Runs `work`; an Error becomes a problem at the key.

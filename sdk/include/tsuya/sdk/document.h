@@ -25,6 +25,7 @@ struct DocumentState;
 class Section {
   public:
     bool has(std::string_view key) const;
+    bool is_text(std::string_view key) const;
     /// file:line:column of a key, of the section where the key is absent.
     std::string where(std::string_view key = {}) const;
 

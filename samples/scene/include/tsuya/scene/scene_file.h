@@ -27,7 +27,9 @@ struct FabricEntry {
     std::string name{};
     std::filesystem::path file{};  ///< empty: a plain diffuser
     std::optional<Spectrum> dye{}; ///< empty: the file's own, or 0.5 for a plain diffuser
+    /// Empty: the file's own
     std::optional<double> f0{};
+    std::optional<Spectrum> transmittance{}, specular_tint{}, weft_tint{}, warp_tint{};
 };
 
 /// `[garments.NAME]` or `[bodies.NAME]`. Bodies have no yarn directions.
@@ -37,7 +39,7 @@ struct MeshEntry {
     std::size_t fabric = 0; ///< into SceneFile::fabrics
     garment::Options options{};
     std::optional<double> tolerance_px{}; ///< of the scene's camera; in place of the level
-    glm::dvec3 translate{0, 0, 0}; ///< metres
+    glm::dvec3 translate{0, 0, 0};        ///< metres
     bool visible = true;
 };
 
