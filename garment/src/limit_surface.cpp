@@ -199,6 +199,12 @@ LimitSample LimitSurface::sample(const glm::dvec2 &at, const Scratch &s) const {
     return r;
 }
 
+glm::dvec3 LimitSurface::point(const glm::dvec2 &at, const Scratch &s) const {
+    glm::dvec3 p;
+    s.surface.Evaluate(&at.x, s.points.data(), 3, &p.x);
+    return p;
+}
+
 LimitCurvature LimitSurface::curvature(const glm::dvec2 &at, const Scratch &s) const {
     LimitCurvature c;
     LimitSample r;

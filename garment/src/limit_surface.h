@@ -57,6 +57,8 @@ class LimitSurface {
     void prepare(std::size_t face, Scratch &scratch) const;
     /// \param at the face's own coordinates. The position is relative to `centre`.
     LimitSample sample(const glm::dvec2 &at, const Scratch &scratch) const;
+    /// The position alone, relative to `centre`.
+    glm::dvec3 point(const glm::dvec2 &at, const Scratch &scratch) const;
     LimitCurvature curvature(const glm::dvec2 &at, const Scratch &scratch) const;
     /// A point near `at`, a little nearer to the middle of the face.
     glm::dvec2 nudged(const glm::dvec2 &at, const Scratch &scratch) const;

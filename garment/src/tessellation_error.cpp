@@ -2,16 +2,12 @@
 #include <array>
 #include <cmath>
 
-#include "limit_numbering.h"
+#include "face_departure.h"
 #include "limit_surface.h"
 #include "tessellation_rates.h"
 
 namespace tsuya::garment {
 namespace {
-
-/// Points of a triangle at which it is held against the limit surface, barycentric.
-constexpr std::array<std::array<double, 3>, 4> kPoints{
-    {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.5, 0.5, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}}};
 
 double angle_between(const glm::dvec3 &a, const glm::dvec3 &b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
@@ -50,16 +46,11 @@ void measure_triangle(const std::array<Corner, 3> &corner, const std::array<doub
         has_normal &= corner[k].has_normal;
         has_warp &= corner[k].has_warp;
     }
-    // To the plane of the triangle: what moves a point within the plane does not show.
-    const glm::dvec3 plane = glm::cross(corner[1].p - corner[0].p, corner[2].p - corner[0].p);
-    const double area = glm::length(plane);
-    if (area > 0.0) {
-        const double departure = std::abs(glm::dot(truth.p - corner[0].p, plane)) / area;
-        error.position = std::max(error.position, departure);
-        error.pixels = std::max(error.pixels, departure * pixel);
-        sums.position2 += departure * departure;
-        ++sums.positions;
-    }
+    const double departure = plane_distance(truth.p, corner[0].p, corner[1].p, corner[2].p);
+    error.position = std::max(error.position, departure);
+    error.pixels = std::max(error.pixels, departure * pixel);
+    sums.position2 += departure * departure;
+    ++sums.positions;
     if (has_normal) {
         const double angle = angle_between(normal, truth.normal);
         error.normal = std::max(error.normal, angle);
@@ -91,20 +82,29 @@ TessellationError measure_tessellation(const PolygonMesh &mesh, const SubdivideO
     Sums sums;
     LimitSurface::Scratch scratch;
     std::vector<Corner> corners;
+    const auto pixels_per_metre = [&](const glm::dvec3 &p) {
+        return camera ? camera->height / (2.0 * std::tan(0.5 * camera->vertical_angle) *
+                                          glm::distance(p + surface.centre(), camera->eye))
+                      : 0.0;
+    };
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const FacePattern &pattern = patterns.of(f);
         surface.prepare(f, scratch);
+        if (scratch.surface.GetParameterization().HasSubFaces()) {
+            const double departure = face_departure(surface, pattern, scratch);
+            error.position = std::max(error.position, departure);
+            error.pixels = std::max(error.pixels, departure * pixels_per_metre(surface.point(
+                                                                  pattern.coordinate[0], scratch)));
+            error.triangles += pattern.triangle.size();
+            continue;
+        }
         corners.clear();
         for (const glm::dvec2 &at : pattern.coordinate)
             corners.push_back(corner_at(surface, at, scratch));
         for (const glm::uvec3 &t : pattern.triangle) {
             const std::array<Corner, 3> corner{corners[t.x], corners[t.y], corners[t.z]};
-            double pixel = 0.0; // pixels a metre
-            if (camera)
-                pixel =
-                    camera->height / (2.0 * std::tan(0.5 * camera->vertical_angle) *
-                                      glm::distance(corner[0].p + surface.centre(), camera->eye));
-            for (const auto &w : kPoints) {
+            const double pixel = pixels_per_metre(corner[0].p);
+            for (const auto &w : kMeasuringPoints) {
                 const glm::dvec2 at = w[0] * pattern.coordinate[t.x] +
                                       w[1] * pattern.coordinate[t.y] +
                                       w[2] * pattern.coordinate[t.z];

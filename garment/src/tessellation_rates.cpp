@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "face_departure.h"
 #include "view_tolerance.h"
 
 namespace tsuya::garment {
@@ -16,6 +19,8 @@ namespace {
 
 /// Pieces of an edge, as level 8 has them.
 constexpr int kMaxRate = 256;
+/// Rounds of measuring and raising. Each at most doubles a rate, and few faces need a second.
+constexpr int kMaxRounds = 12;
 
 /// What the second derivatives of a face ask for, all along the normal and divided by 8: a chord of
 /// length h departs by h^2 / 8 of the second derivative along it.
@@ -75,8 +80,19 @@ std::vector<glm::dvec2> measuring_points(const OpenSubdiv::Bfr::Parameterization
 
 /// The numbers of one face: along each edge, and inside.
 struct FaceNeed {
-    std::vector<int> edge;
+    std::vector<int> edge{};
     glm::ivec2 inner{1};
+    double tolerance = 0.0; ///< metres
+
+    /// Raises a number by what a departure asks for; false where nothing is to be done or it is
+    /// as large as can be.
+    bool raise(int &rate, double departure) const {
+        if (!(departure > tolerance) || rate >= kMaxRate)
+            return false;
+        const double growth = std::min(2.0, 1.05 * std::sqrt(departure / tolerance));
+        rate = std::min(kMaxRate, std::max(rate + 1, static_cast<int>(std::ceil(growth * rate))));
+        return true;
+    }
 };
 
 class RateChooser {
@@ -91,7 +107,8 @@ class RateChooser {
         const PolygonMesh &mesh = surface_.mesh();
         const auto corners = static_cast<int>(mesh.face_size(face));
         const double tolerance = tolerance_of(face);
-        FaceNeed need{std::vector<int>(static_cast<std::size_t>(corners), 1)};
+        FaceNeed need{.edge = std::vector<int>(static_cast<std::size_t>(corners), 1),
+                      .tolerance = tolerance};
         if (!std::isfinite(tolerance))
             return need;
         surface_.prepare(face, scratch);
@@ -100,9 +117,8 @@ class RateChooser {
             need.inner = quad_pieces(bend, tolerance);
             need.edge = {need.inner.x, need.inner.y, need.inner.x, need.inner.y};
         } else if (corners == 3) {
-            // The middle of an even triangle departs by 4/3 of what its edges do, and triangles
-            // between edges of different rates by up to twice that.
-            const double worst = 8.0 / 3.0 * std::max({bend.a, bend.c, bend.diagonal});
+            // The middle of an even triangle departs by 4/3 of what its edges do.
+            const double worst = 4.0 / 3.0 * std::max({bend.a, bend.c, bend.diagonal});
             need.inner = glm::ivec2(pieces(worst, tolerance));
             std::fill(need.edge.begin(), need.edge.end(), need.inner.x);
         } else {
@@ -183,6 +199,62 @@ class RateChooser {
     std::optional<ViewNeed> view_;
 };
 
+/// Measures the triangles of a face; true where a number had to be raised.
+bool measure_and_raise(const LimitSurface &surface, std::size_t f, const FacePattern &pattern,
+                       const TessellationRates &rates, const LimitSurface::Scratch &scratch,
+                       FaceNeed &need) {
+    const double departure = face_departure(surface, pattern, scratch);
+    if (!(departure > need.tolerance))
+        return false;
+    // Edges only where they are to blame, since they concern the neighbours as well.
+    const auto edges = surface.topology().GetFaceEdges(static_cast<int>(f));
+    bool raised = false;
+    for (int e = 0; e < edges.size(); ++e) {
+        int &rate = need.edge[static_cast<std::size_t>(e)];
+        rate = rates.edge[static_cast<std::size_t>(edges[e])];
+        raised |= need.raise(rate, edge_departure(surface, e, rate, scratch));
+    }
+    if (raised)
+        return true;
+    need.inner = rates.inner[f];
+    raised |= need.raise(need.inner.x, departure);
+    raised |= need.raise(need.inner.y, departure);
+    return raised;
+}
+
+bool cut_alike(const LimitSurface &surface, std::size_t f, const TessellationRates &a,
+               const TessellationRates &b) {
+    const auto edges = surface.topology().GetFaceEdges(static_cast<int>(f));
+    return a.inner[f] == b.inner[f] && std::all_of(edges.begin(), edges.end(), [&](int edge) {
+               const auto e = static_cast<std::size_t>(edge);
+               return a.edge[e] == b.edge[e];
+           });
+}
+
+/// The numbers of all faces: an edge gets the larger of its two faces.
+TessellationRates join_needs(const LimitSurface &surface, const std::vector<FaceNeed> &need) {
+    TessellationRates rates = uniform_rates(surface, 1);
+    for (std::size_t f = 0; f < need.size(); ++f) {
+        const auto edges = surface.topology().GetFaceEdges(static_cast<int>(f));
+        for (int e = 0; e < edges.size(); ++e) {
+            int &rate = rates.edge[static_cast<std::size_t>(edges[e])];
+            rate = std::max(rate, need[f].edge[static_cast<std::size_t>(e)]);
+        }
+        rates.inner[f] = need[f].inner;
+    }
+    // A quad of one row whose edges differ would become a fan about its centre, as long as the row.
+    for (std::size_t f = 0; f < need.size(); ++f) {
+        const auto edges = surface.topology().GetFaceEdges(static_cast<int>(f));
+        glm::ivec2 &inner = rates.inner[f];
+        bool regular = true;
+        for (int e = 0; e < edges.size(); ++e)
+            regular &= rates.edge[static_cast<std::size_t>(edges[e])] == inner[e % 2];
+        if (edges.size() == 4 && !regular && std::max(inner.x, inner.y) > 1)
+            inner = glm::max(inner, glm::ivec2(2));
+    }
+    return rates;
+}
+
 } // namespace
 
 TessellationRates uniform_rates(const LimitSurface &surface, int rate) {
@@ -195,29 +267,30 @@ TessellationRates adaptive_rates(const LimitSurface &surface, const SubdivideOpt
     const std::size_t faces = surface.mesh().face_count();
     std::vector<FaceNeed> need(faces);
     tbb::enumerable_thread_specific<LimitSurface::Scratch> scratches;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces, 64), [&](auto range) {
-        for (std::size_t f = range.begin(); f != range.end(); ++f)
-            need[f] = chooser.need(f, scratches.local());
-    });
-    // An edge gets the larger number of its two faces.
-    TessellationRates rates = uniform_rates(surface, 1);
-    for (std::size_t f = 0; f < faces; ++f) {
-        const auto edges = surface.topology().GetFaceEdges(static_cast<int>(f));
-        for (int e = 0; e < edges.size(); ++e) {
-            int &rate = rates.edge[static_cast<std::size_t>(edges[e])];
-            rate = std::max(rate, need[f].edge[static_cast<std::size_t>(e)]);
-        }
-        rates.inner[f] = need[f].inner;
-    }
-    // A quad of one row whose edges differ would become a fan about its centre, as long as the row.
-    for (std::size_t f = 0; f < faces; ++f) {
-        const auto edges = surface.topology().GetFaceEdges(static_cast<int>(f));
-        glm::ivec2 &inner = rates.inner[f];
-        bool regular = true;
-        for (int e = 0; e < edges.size(); ++e)
-            regular &= rates.edge[static_cast<std::size_t>(edges[e])] == inner[e % 2];
-        if (edges.size() == 4 && !regular && std::max(inner.x, inner.y) > 1)
-            inner = glm::max(inner, glm::ivec2(2));
+    const auto for_each_face = [&](auto &&work) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces, 64), [&](auto range) {
+            for (std::size_t f = range.begin(); f != range.end(); ++f)
+                work(f, scratches.local());
+        });
+    };
+    for_each_face(
+        [&](std::size_t f, LimitSurface::Scratch &scratch) { need[f] = chooser.need(f, scratch); });
+    // The estimate is too low about extraordinary vertices and where rates differ along a face.
+    TessellationRates rates = join_needs(surface, need), before;
+    for (int round = 0; round < kMaxRounds; ++round) {
+        const FacePatterns patterns(surface, rates);
+        std::atomic<bool> raised = false;
+        for_each_face([&](std::size_t f, LimitSurface::Scratch &scratch) {
+            if (!std::isfinite(need[f].tolerance) ||
+                (round > 0 && cut_alike(surface, f, before, rates)))
+                return;
+            surface.prepare(f, scratch);
+            if (measure_and_raise(surface, f, patterns.of(f), rates, scratch, need[f]))
+                raised = true;
+        });
+        if (!raised)
+            break;
+        before = std::exchange(rates, join_needs(surface, need));
     }
     return rates;
 }

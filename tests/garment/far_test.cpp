@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <numbers>
-#include <random>
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -91,55 +89,6 @@ std::size_t nearest(const LimitMesh &mesh, const glm::dvec3 &p) {
     return best;
 }
 
-PolygonMesh shaken(PolygonMesh mesh, double amount) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> shift(-amount, amount);
-    for (glm::dvec3 &p : mesh.position)
-        p += glm::dvec3(shift(random), shift(random), shift(random));
-    return mesh;
-}
-
-/// Three rings of faces about vertex 0, which joins `n` of them, not flat. `open`: three quarters
-/// of a turn, with the vertex on the hem. UV is a smooth function of the place.
-PolygonMesh fan(int n, bool open, bool triangles) {
-    const int across = triangles ? 1 : 2; // steps from spoke to spoke
-    const int columns = n * across + (open ? 1 : 0);
-    const double turn = (open ? 1.5 : 2.0) * std::numbers::pi / (n * across);
-    PolygonMesh mesh;
-    mesh.position.emplace_back(0.0);
-    for (int ring = 1; ring <= 3; ++ring)
-        for (int i = 0; i < columns; ++i) {
-            const double r = ring * (i % across == 1 ? 1.2 : 1.0), a = turn * i;
-            mesh.position.emplace_back(r * std::cos(a), r * std::sin(a), 0.0);
-        }
-    for (const glm::dvec3 &p : mesh.position)
-        mesh.uv.emplace_back(0.9 * p.x + 0.2 * p.y + 0.03 * p.x * p.y, p.y - 0.3 * p.x);
-    const auto at = [&](int ring, int i) {
-        return ring == 0 ? 0u : static_cast<std::uint32_t>(1 + (ring - 1) * columns + i % columns);
-    };
-    const auto face = [&](const std::vector<std::uint32_t> &v) {
-        mesh.add_face(v, {v.begin(), v.end()}, 0);
-    };
-    for (int i = 0; i < n * across; i += across) {
-        if (triangles)
-            face({0, at(1, i), at(1, i + 1)});
-        else
-            face({0, at(1, i), at(1, i + 1), at(1, i + 2)});
-    }
-    for (int ring = 1; ring < 3; ++ring)
-        for (int i = 0; i < n * across; ++i) {
-            const std::uint32_t a = at(ring, i), b = at(ring + 1, i), c = at(ring + 1, i + 1),
-                                d = at(ring, i + 1);
-            if (triangles) {
-                face({a, b, c});
-                face({a, c, d});
-            } else {
-                face({a, b, c, d});
-            }
-        }
-    return shaken(mesh, 0.1);
-}
-
 struct Comparison {
     bool skip_first = false;    ///< leave out vertex 0
     double shift = 0.0;         ///< of Far's points, as a control
@@ -171,27 +120,27 @@ void compare_with_far(const PolygonMesh &mesh, Scheme scheme, const Comparison &
 }
 
 TEST(Far, LimitPointsAndNormalsAgree) {
-    compare_with_far(shaken(test::cube(), 0.1), Scheme::catmark);
+    compare_with_far(test::shaken(test::cube(), 0.1), Scheme::catmark);
     compare_with_far(test::cut_cube(), Scheme::catmark, {.normal_error = 1e-4});
-    compare_with_far(shaken(test::triangulated(test::cube()), 0.1), Scheme::catmark,
+    compare_with_far(test::shaken(test::triangulated(test::cube()), 0.1), Scheme::catmark,
                      {.normal_error = 1e-4});
-    compare_with_far(shaken(test::panel(4, 3, 0.25), 0.05), Scheme::catmark);
-    compare_with_far(shaken(test::triangulated(test::cube()), 0.1), Scheme::loop);
-    compare_with_far(shaken(test::triangulated(test::panel(4, 3, 0.25)), 0.05), Scheme::loop);
+    compare_with_far(test::shaken(test::panel(4, 3, 0.25), 0.05), Scheme::catmark);
+    compare_with_far(test::shaken(test::triangulated(test::cube()), 0.1), Scheme::loop);
+    compare_with_far(test::shaken(test::triangulated(test::panel(4, 3, 0.25)), 0.05), Scheme::loop);
     for (const int n : {3, 4, 5, 6, 8, 12, 20, 50})
         for (const bool triangles : {false, true}) {
             const Scheme scheme = triangles ? Scheme::loop : Scheme::catmark;
-            compare_with_far(fan(n, false, triangles), scheme);
-            compare_with_far(fan(n, true, triangles), scheme, {.skip_first = true});
+            compare_with_far(test::fan(n, false, triangles), scheme);
+            compare_with_far(test::fan(n, true, triangles), scheme, {.skip_first = true});
         }
-    compare_with_far(shaken(test::cube(), 0.1), Scheme::catmark, {.shift = 2e-4});
+    compare_with_far(test::shaken(test::cube(), 0.1), Scheme::catmark, {.shift = 2e-4});
 }
 
 TEST(Far, WarpAndWeftAgreeAtExtraordinaryVertices) {
     for (const int n : {3, 5, 6, 9, 20}) {
         for (const bool triangles : {false, true}) {
             const Scheme scheme = triangles ? Scheme::loop : Scheme::catmark;
-            const PolygonMesh mesh = fan(n, false, triangles);
+            const PolygonMesh mesh = test::fan(n, false, triangles);
             const FarLevel far = far_level(mesh, scheme);
             const LimitMesh ours = subdivide(mesh, {.scheme = scheme, .level = 1});
             std::size_t compared = 0;
@@ -221,7 +170,7 @@ TEST(Far, NormalsOfHemsAreThoseOfTheRefinedMesh) {
     for (const bool triangles : {false, true}) {
         const Scheme scheme = triangles ? Scheme::loop : Scheme::catmark;
         for (const int n : {1, 2, 3, 4, 5, 8, 20}) {
-            const PolygonMesh mesh = fan(n, true, triangles);
+            const PolygonMesh mesh = test::fan(n, true, triangles);
             const FarLevel once = far_level(mesh, scheme), twice = far_level(once.mesh, scheme);
             const LimitMesh ours = subdivide(mesh, {.scheme = scheme, .level = 0});
             const LimitMesh refined = subdivide(once.mesh, {.scheme = scheme, .level = 0});

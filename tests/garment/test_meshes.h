@@ -2,11 +2,14 @@
 /// \file
 /// Meshes of known properties, made for tests.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <optional>
+#include <random>
+#include <utility>
 
 #include "tsuya/garment/polygon_mesh.h"
 
@@ -144,6 +147,71 @@ struct Torus {
                     [&](int i, int j) { return at(step * i, step * j); });
     }
 };
+
+/// Every vertex moved by up to `amount` along each axis, the same every time.
+inline PolygonMesh shaken(PolygonMesh mesh, double amount) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> shift(-amount, amount);
+    for (glm::dvec3 &p : mesh.position)
+        p += glm::dvec3(shift(random), shift(random), shift(random));
+    return mesh;
+}
+
+/// Three rings of faces about vertex 0, which joins `n` of them, not flat. `open`: three quarters
+/// of a turn, with the vertex on the hem. UV is a smooth function of the place.
+inline PolygonMesh fan(int n, bool open, bool triangles) {
+    const int across = triangles ? 1 : 2; // steps from spoke to spoke
+    const int columns = n * across + (open ? 1 : 0);
+    const double turn = (open ? 1.5 : 2.0) * std::numbers::pi / (n * across);
+    PolygonMesh mesh;
+    mesh.position.emplace_back(0.0);
+    for (int ring = 1; ring <= 3; ++ring)
+        for (int i = 0; i < columns; ++i) {
+            const double r = ring * (i % across == 1 ? 1.2 : 1.0), a = turn * i;
+            mesh.position.emplace_back(r * std::cos(a), r * std::sin(a), 0.0);
+        }
+    for (const glm::dvec3 &p : mesh.position)
+        mesh.uv.emplace_back(0.9 * p.x + 0.2 * p.y + 0.03 * p.x * p.y, p.y - 0.3 * p.x);
+    const auto at = [&](int ring, int i) {
+        return ring == 0 ? 0u : static_cast<std::uint32_t>(1 + (ring - 1) * columns + i % columns);
+    };
+    const auto face = [&](const std::vector<std::uint32_t> &v) {
+        mesh.add_face(v, {v.begin(), v.end()}, 0);
+    };
+    for (int i = 0; i < n * across; i += across) {
+        if (triangles)
+            face({0, at(1, i), at(1, i + 1)});
+        else
+            face({0, at(1, i), at(1, i + 1), at(1, i + 2)});
+    }
+    for (int ring = 1; ring < 3; ++ring)
+        for (int i = 0; i < n * across; ++i) {
+            const std::uint32_t a = at(ring, i), b = at(ring + 1, i), c = at(ring + 1, i + 1),
+                                d = at(ring, i + 1);
+            if (triangles) {
+                face({a, b, c});
+                face({a, c, d});
+            } else {
+                face({a, b, c, d});
+            }
+        }
+    return shaken(mesh, 0.1);
+}
+
+/// From a point to the nearest of a triangle.
+inline double distance_to_triangle(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b,
+                                   const glm::dvec3 &c) {
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    double nearest = 1e300;
+    bool inside = true;
+    for (const auto &[from, to] : {std::pair(a, b), {b, c}, {c, a}}) {
+        inside &= glm::dot(glm::cross(to - from, p - from), n) >= 0.0;
+        const glm::dvec3 edge = to - from;
+        const double t = std::clamp(glm::dot(p - from, edge) / glm::dot(edge, edge), 0.0, 1.0);
+        nearest = std::min(nearest, glm::distance(p, from + t * edge));
+    }
+    return inside ? std::abs(glm::dot(p - a, n)) / glm::length(n) : nearest;
+}
 
 /// The folder of data from elsewhere, where the environment names it.
 inline std::optional<std::filesystem::path> outside_data() {

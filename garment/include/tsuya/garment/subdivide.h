@@ -46,8 +46,8 @@ struct SubdivideOptions {
     int level = 1; ///< 0 to 8: each edge of the control mesh is cut into 2^level
     /// Metres. Where this or `view` is set, `level` does not count: each edge is cut into as many
     /// pieces, 1 to 256, as keep triangles this near to the limit surface. Estimated from second
-    /// derivatives: about extraordinary vertices of triangle meshes up to three times as much was
-    /// measured.
+    /// derivatives, then measured at four points of every triangle and raised. Only about vertices
+    /// of 12 faces or more were 256 pieces not enough: up to 2.2 times the tolerance was measured.
     std::optional<double> tolerance{};
     std::optional<ViewTolerance> view{}; ///< with `tolerance`, the finer of the two
     double seam_crease = 0.0; ///< sharpness of edges where UVs part, 0 (smooth) to 10 (sharp)
