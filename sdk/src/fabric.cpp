@@ -1,6 +1,7 @@
 #include "tsuya/sdk/fabric.h"
 
 #include <algorithm>
+#include <cmath>
 #include <locale>
 #include <numbers>
 #include <sstream>
@@ -87,6 +88,17 @@ void write_spectrum(std::ostream &out, const char *key, const Spectrum &spectrum
     write_numbers(out, "value", spectrum.value);
 }
 
+void write_yarn(std::ostream &out, const YarnLobes &lobes) {
+    out << "\n[yarn]\nf0 = " << lobes.f0 << "\nroughness = " << lobes.roughness
+        << "\neven = " << lobes.even << "\npit_weft = " << lobes.pit[0]
+        << "\npit_warp = " << lobes.pit[1] << "\n";
+    const auto all = [](const auto &surface) {
+        return std::vector<double>(surface.begin(), surface.end());
+    };
+    write_numbers(out, "surface_weft", all(lobes.surface[0]));
+    write_numbers(out, "surface_warp", all(lobes.surface[1]));
+}
+
 // A TOML basic string.
 std::string quoted(const std::string &text) {
     std::string result = "\"";
@@ -110,6 +122,33 @@ void check_diffuse(const Fabric &fabric, const std::string &where) {
                          where + ".transmittance", "expected at most 1"});
 }
 
+std::optional<YarnLobes> read_yarn(const Section &root) {
+    const auto section = root.section("yarn");
+    if (!section)
+        return std::nullopt;
+    YarnLobes lobes;
+    lobes.f0 = section->required_number("f0", 1e-6, 1);
+    lobes.roughness = section->required_number("roughness", 0.005, 1);
+    lobes.even = section->required_number("even", 0, 1);
+    lobes.pit = {section->required_number("pit_weft", 0, 10),
+                 section->required_number("pit_warp", 0, 10)};
+    for (const std::size_t axis : {0u, 1u}) {
+        const char *const key = axis == 0 ? "surface_weft" : "surface_warp";
+        const auto surface = section->numbers(key).value_or(std::vector<double>{});
+        if (surface.size() != kYarnSlopes ||
+            !std::all_of(surface.begin(), surface.end(),
+                         [](double s) { return s >= 0 && std::isfinite(s); }))
+            section->problem(key,
+                             "these " + std::to_string(surface.size()) +
+                                 " numbers are no surfaces at the slopes of yarns",
+                             "expected " + std::to_string(kYarnSlopes) +
+                                 " not below 0, for every 2 degrees from -48 to 48");
+        else
+            std::copy(surface.begin(), surface.end(), lobes.surface[axis].begin());
+    }
+    return lobes;
+}
+
 // The model, and what it is made of but the views.
 void read_model(const Section &root, const std::filesystem::path &file, Fabric &fabric) {
     if (const auto model = root.text("model")) {
@@ -131,6 +170,7 @@ void read_model(const Section &root, const std::filesystem::path &file, Fabric &
                              "expected one of them");
         fabric.ggx = facets;
     }
+    fabric.yarn = read_yarn(root);
     if (const auto table = root.text("table")) {
         fabric.table_file = *table;
         fabric.table = read_reflectance_table(file.parent_path() / *table);
@@ -245,6 +285,8 @@ void write_fabric(const Fabric &fabric, const std::filesystem::path &file) {
         else
             out << "\nf0 = " << fabric.ggx->f0 << "\n";
     }
+    if (fabric.yarn)
+        write_yarn(out, *fabric.yarn);
     if (fabric.bard) {
         const BardSmoothness &s = fabric.bard->smoothness();
         out << "\n[smoothness]\nweft_support = " << s.weft_support

@@ -10,6 +10,23 @@ namespace tsuya {
 namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
+constexpr double kOblique = 1e-9; // radians; below, light is from straight above
+
+double log_ratio(double fitted, double measured) { return std::abs(std::log10(fitted / measured)); }
+
+struct Met {
+    double measured, fitted, sigma;
+};
+
+// \param residual root mean square of all, log10
+bool is_off(const Met &view, double residual) {
+    constexpr double kTimes = 3, kLeast = 0.1;
+    if (!(view.measured > 0 && view.fitted > 0))
+        return false;
+    const double difference = std::abs(view.fitted - view.measured);
+    return log_ratio(view.fitted, view.measured) > kTimes * residual &&
+           difference > kLeast * view.measured && difference > kTimes * view.sigma;
+}
 
 } // namespace
 
@@ -45,22 +62,47 @@ double shown_tilt(const Bard &bard) {
 }
 
 std::vector<BardView> misfits(const Bard &bard) {
-    constexpr double kTimes = 3, kLeast = 0.1;
-    const auto off_by = [](const BardView &view) {
-        return std::abs(std::log10(view.fitted_per_sr / view.brdf_per_sr));
-    };
     std::vector<BardView> found;
-    const double residual = bard.residual();
-    for (const BardView &view : bard.views()) {
-        if (!(view.brdf_per_sr > 0 && view.fitted_per_sr > 0))
-            continue;
-        const double difference = std::abs(view.fitted_per_sr - view.brdf_per_sr);
-        if (off_by(view) > kTimes * residual && difference > kLeast * view.brdf_per_sr &&
-            difference > kTimes * view.sigma_per_sr)
+    for (const BardView &view : bard.views())
+        if (is_off({view.brdf_per_sr, view.fitted_per_sr, view.sigma_per_sr}, bard.residual()))
             found.push_back(view);
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [&](const BardView &a, const BardView &b) { return off_by(a) > off_by(b); });
+    std::stable_sort(found.begin(), found.end(), [&](const BardView &a, const BardView &b) {
+        return log_ratio(a.fitted_per_sr, a.brdf_per_sr) >
+               log_ratio(b.fitted_per_sr, b.brdf_per_sr);
+    });
+    return found;
+}
+
+std::vector<ModelledView> oblique_views(const ReflectanceTable &table, const BrdfFunction &model) {
+    std::vector<ModelledView> views;
+    const auto direction = [](double theta, double phi) {
+        return glm::dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                          std::max(std::cos(theta), 0.0));
+    };
+    for (const ReflectanceRow &row : table.rows)
+        if (row.theta_i >= kOblique)
+            views.push_back(
+                {row, model(direction(row.theta_i, row.phi_i), direction(row.theta_r, row.phi_r))});
+    return views;
+}
+
+std::vector<ModelledView> misfits(std::span<const ModelledView> views) {
+    double squares = 0, count = 0;
+    for (const ModelledView &view : views)
+        if (view.row.brdf_per_sr > 0 && view.fitted_per_sr > 0) {
+            const double ratio = log_ratio(view.fitted_per_sr, view.row.brdf_per_sr);
+            squares += ratio * ratio;
+            count += 1;
+        }
+    const double residual = std::sqrt(squares / std::max(count, 1.0));
+    std::vector<ModelledView> found;
+    for (const ModelledView &view : views)
+        if (is_off({view.row.brdf_per_sr, view.fitted_per_sr, view.row.sigma_per_sr}, residual))
+            found.push_back(view);
+    std::stable_sort(found.begin(), found.end(), [&](const ModelledView &a, const ModelledView &b) {
+        return log_ratio(a.fitted_per_sr, a.row.brdf_per_sr) >
+               log_ratio(b.fitted_per_sr, b.row.brdf_per_sr);
+    });
     return found;
 }
 

@@ -12,7 +12,6 @@ namespace tsuya {
 namespace {
 
 constexpr int kQuadratureCells = 96;
-constexpr double kFibreF0 = 0.05; // of an index of 1.58: fibres have 1.53 to 1.6
 
 constexpr std::array<ModelName, 7> kModels = {{
     {"yarn", "warp and weft as rough cylinders fitted to the measured views; the default"},
@@ -23,6 +22,14 @@ constexpr std::array<ModelName, 7> kModels = {{
     {"lambert", "ideal diffuser"},
     {"tabulated", "every light and view from a table; no prediction"},
 }};
+
+// Whether as much filament lies at each slope as at its opposite: what the model has to know.
+Symmetry symmetry_of(const YarnLobes &lobes) {
+    const bool mirrored =
+        std::all_of(lobes.surface.begin(), lobes.surface.end(),
+                    [](const auto &s) { return std::equal(s.begin(), s.end(), s.rbegin()); });
+    return mirrored ? Symmetry::orthotropic : Symmetry::none;
+}
 
 // The share of light from straight above that is reflected.
 double albedo_of(const Bard &bard) {
@@ -52,7 +59,7 @@ bool has_data_of(const std::string &model, const Fabric &fabric) {
     const bool views = fabric.bard && fabric.bard->peak() > 0;
     if (model == "tabulated")
         return fabric.table.has_value();
-    return views || (model == "ggx" && fabric.ggx);
+    return views || (model == "ggx" && fabric.ggx) || (model == "yarn" && fabric.yarn);
 }
 
 Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string &where) {
@@ -73,8 +80,10 @@ Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string 
     }
     if (name == "lambert")
         return LambertBrdf(static_cast<float>(std::min(1.0, albedo_of(*fabric.bard))));
+    if (name == "yarn" && fabric.yarn)
+        return YarnBrdf(*fabric.yarn, symmetry_of(*fabric.yarn));
     if (name == "yarn")
-        return YarnBrdf(*fabric.bard, fabric.f0 ? f0_of(fabric, where) : kFibreF0);
+        return YarnBrdf(*fabric.bard, fabric.f0 ? f0_of(fabric, where) : YarnLobes{}.f0);
     const double f0 = f0_of(fabric, where);
     if (name == "half_vector")
         return HalfVectorBrdf(*fabric.bard, f0);

@@ -188,6 +188,41 @@ TEST_F(FabricFile, IsReadBackAsWritten) {
         }
 }
 
+TEST_F(FabricFile, YarnsAreReadBackAsWritten) {
+    Fabric fabric{.name = "yarns"};
+    YarnLobes lobes{.f0 = 0.0479, .roughness = 0.08, .pit = {0.125, 0.05}, .even = 0.003};
+    lobes.surface[0][24] = 0.75;
+    lobes.surface[1][20] = 0.5;
+    fabric.yarn = lobes;
+    write_fabric(fabric, file("y.fabric.toml"));
+    const Fabric back = read_fabric(file("y.fabric.toml"));
+    ASSERT_TRUE(back.yarn);
+    EXPECT_EQ(back.yarn->f0, lobes.f0);
+    EXPECT_EQ(back.yarn->roughness, lobes.roughness);
+    EXPECT_EQ(back.yarn->even, lobes.even);
+    EXPECT_EQ(back.yarn->pit, lobes.pit);
+    EXPECT_EQ(back.yarn->surface, lobes.surface);
+    const Material material =
+        resolve(back, "yarns"); // without views, slopes not as their opposites
+    const YarnBrdf expected(lobes, Symmetry::none);
+    const glm::vec3 light = direction(40, 10), view = direction(60, 170);
+    EXPECT_EQ(std::get<YarnBrdf>(*material.specular).evaluate(light, view),
+              expected.evaluate(light, view));
+    for (const auto &[from, to] : {std::pair{"pit_warp = 0.05", "pit_warp = -0.05"},
+                                   {"pit_weft = 0.125", ""},
+                                   {"roughness = 0.08", "roughness = 0"},
+                                   {"even = 0.003", "even = 2"},
+                                   {"surface_warp = [0,", "surface_warp = ["},
+                                   {"surface_weft = [0,", "surface_weft = [-1,"},
+                                   {"pit_weft = 0.125", "pit_weft = 0.125\npits = 1"}}) {
+        std::string text = read_file(file("y.fabric.toml"));
+        const std::size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        text.replace(at, std::string(from).size(), to);
+        EXPECT_EQ(problems_of(read_fabric, file("bad.fabric.toml", text)).size(), 1u) << to;
+    }
+}
+
 TEST_F(FabricFile, SymmetryIsKept) {
     for (const Cloth &cloth : {satin_cloth(), twisted_cloth(), leaning_cloth()}) {
         Fabric fabric{.name = "cloth"};

@@ -10,6 +10,7 @@
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/brdf.h"
 #include "tsuya/sdk/spectrum.h"
+#include "tsuya/sdk/yarn_lobes.h"
 
 namespace tsuya {
 
@@ -25,6 +26,9 @@ struct Fabric {
     std::string model = kDefaultModel;         ///< of the specular part, see model_names
     std::optional<Bard> bard{};                ///< the measured views, for the models made of them
     std::optional<GgxFacets> ggx{};            ///< for the model `ggx`; none: fitted to the views
+    /// For the model `yarn`: fitted to oblique light too; none: fitted to the views. With its own
+    /// f0.
+    std::optional<YarnLobes> yarn{};
     /// For the model `tabulated`: every light and view, and the file that holds them, from the
     /// folder of the fabric's file.
     std::optional<ReflectanceTable> table{};

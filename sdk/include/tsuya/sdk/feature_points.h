@@ -3,11 +3,13 @@
 /// What the views of a fabric show of its facets: the feature points of [Takeda], and how far the
 /// facets are tilted that any view shows.
 
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/bard.h"
 
 namespace tsuya {
@@ -39,5 +41,17 @@ double shown_tilt(const Bard &bard);
 /// the root mean square of all and their own standard error; the worst first. The surface bends to
 /// such a view, so that neighbours may be among them.
 std::vector<BardView> misfits(const Bard &bard);
+
+/// A measured view under any light beside what a model has there.
+struct ModelledView {
+    ReflectanceRow row{};
+    double fitted_per_sr = 0;
+};
+
+/// The rows of the table that light from straight above does not belong to, beside the model.
+std::vector<ModelledView> oblique_views(const ReflectanceTable &table, const BrdfFunction &model);
+
+/// Those that the model does not meet, by the same rule as above; the worst first.
+std::vector<ModelledView> misfits(std::span<const ModelledView> views);
 
 } // namespace tsuya

@@ -4,11 +4,12 @@
 /// slope along its yarn.
 
 #include <array>
-#include <vector>
+#include <string>
 
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya {
 
@@ -19,7 +20,9 @@ double yarn_slope(int k);
 
 /// The filaments of a cloth.
 struct YarnLobes {
-    double f0 = 0.05;        ///< reflectance of the fibre at normal incidence, (0, 1]
+    /// Reflectance of the fibre at normal incidence, (0, 1]: that of an index of 1.58, fibres have
+    /// 1.53 to 1.6
+    double f0 = 0.05;
     double roughness = 0.05; ///< standard deviation of a filament's surface slope, radians
     /// Surface of filaments over that of the cloth at each slope, of yarns along the weft (0) and
     /// the warp (1). pi/2 is a full cover of level filaments.
@@ -37,5 +40,13 @@ double yarn_lobe(int axis, double slope, double roughness, const glm::dvec3 &hal
 /// of pits is not seen from above: it follows from how little of the face a system has. Throws
 /// Error unless f0 is in (0, 1].
 YarnLobes fit_yarn_lobes(const Bard &bard, double f0);
+
+/// Fits the depth of pits as well, which light from straight above does not show, to the rows of
+/// the table with oblique light; its rows with theta_i = 0 are not looked at. A dozen rows are
+/// enough: the slopes are fitted to both, with one vote for the views from above and one for the
+/// oblique lights together. Throws Error naming `where`: less than 4 oblique rows; a light whose
+/// views are all 0, or a bard of zeros; as check_table; f0 as above.
+YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double f0,
+                         const std::string &where);
 
 } // namespace tsuya

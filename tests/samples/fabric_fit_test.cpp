@@ -1,0 +1,114 @@
+// tsuya fabric fit, from end to end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/process.h"
+#include "samples/scratch.h"
+#include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/fabric.h"
+
+namespace tsuya::program {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using scene::Scratch;
+
+Outcome run(const Scratch &scratch, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "fabric");
+    return run_program(arguments, scratch.folder());
+}
+
+fs::path satin() { return scene::data_folder() / "fabrics/black_satin.fabric.toml"; }
+
+// What the sample satin would show under light from straight above and two views under each of six
+// lights, its weft deeper than light from above tells.
+std::string dozen_table(const Scratch &scratch, double odd = 1) {
+    Fabric fabric = read_fabric(satin());
+    YarnLobes lobes = fit_yarn_lobes(*fabric.bard, 0.05);
+    lobes.pit = {0.1, 0.05};
+    const YarnBrdf brdf(lobes);
+    constexpr double kDegree = 0.017453292519943295;
+    const auto direction = [](double theta, double phi) {
+        return glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                         std::cos(theta));
+    };
+    ReflectanceTable table{.symmetry = Symmetry::orthotropic};
+    const auto add = [&](double theta_i, double phi_i, double theta, double phi, double times = 1) {
+        const ReflectanceRow row{theta_i * kDegree, phi_i * kDegree, theta * kDegree,
+                                 phi * kDegree};
+        table.rows.push_back(row);
+        table.rows.back().brdf_per_sr = times * brdf.evaluate(direction(row.theta_i, row.phi_i),
+                                                              direction(row.theta_r, row.phi_r));
+    };
+    for (double theta = 0; theta < 86; theta += 5)
+        for (double phi = 0; phi < 91 && (theta > 0 || phi == 0); phi += 10)
+            add(0, 0, theta, phi);
+    for (const auto &[theta, phi] :
+         {std::pair{45, 45}, {60, 0}, {60, 45}, {60, 90}, {75, 0}, {75, 90}}) {
+        add(theta, phi, theta, phi + 180);
+        add(theta, phi, theta, phi + 216, theta == 60 && phi == 45 ? odd : 1);
+    }
+    const std::filesystem::path file = scratch / "dozen.csv";
+    write_reflectance_table(table, file);
+    return file.string();
+}
+
+TEST(FabricFit, UsesObliqueViewsIfAsked) {
+    const Scratch scratch;
+    const std::string table = dozen_table(scratch), normal = (scratch / "n.fabric.toml").string(),
+                      all = (scratch / "a.fabric.toml").string();
+    const auto fit = [&](const std::string &use, const std::string &file) {
+        return run(scratch, {"fit", table, "-o", file, "--f0", "0.05", "--use", use, "--json"});
+    };
+    const Outcome above = fit("normal", normal), both = fit("all", all);
+    ASSERT_EQ(above.status, 0) << above.err;
+    ASSERT_EQ(both.status, 0) << both.err;
+    const json before = json::parse(above.out)["oblique"], after = json::parse(both.out)["oblique"];
+    EXPECT_EQ(before.at("fitted"), false);
+    EXPECT_EQ(after.at("fitted"), true);
+    EXPECT_EQ(after.at("lights"), 6);
+    EXPECT_EQ(after.at("views").size(), 12u);
+    EXPECT_NEAR(after.at("pit_weft").get<double>(), 0.1, 0.026);
+    EXPECT_NEAR(after.at("pit_warp").get<double>(), 0.05, 0.026);
+    EXPECT_NEAR(after.at("l2_cos_from_above").get<double>(), before.at("l2_cos").get<double>(),
+                1e-6);
+    EXPECT_LT(after.at("l2_cos"), 0.5 * before.at("l2_cos").get<double>());
+    EXPECT_FALSE(read_fabric(normal).yarn);
+    ASSERT_TRUE(read_fabric(all).yarn);
+    EXPECT_NEAR(read_fabric(all).yarn->pit[0], after.at("pit_weft").get<double>(), 1e-9);
+    const Outcome text = run(scratch, {"fit", table, "-o", all, "--use", "all"});
+    EXPECT_NE(text.out.find("oblique views 12 under 6 lights, fitted: l2_cos"), std::string::npos);
+}
+
+TEST(FabricFit, NamesObliqueViewsThatDoNotFit) {
+    const Scratch scratch;
+    const std::string file = (scratch / "a.fabric.toml").string();
+    const Outcome odd =
+        run(scratch, {"fit", dozen_table(scratch, 30), "-o", file, "--f0", "0.05", "--use", "all"});
+    EXPECT_EQ(odd.status, 0);
+    EXPECT_NE(odd.err.find("theta 60, phi 261 under light at theta_i 60, phi_i 45"),
+              std::string::npos)
+        << odd.err;
+}
+
+TEST(FabricFit, RefusesObliqueViewsThatAreNone) {
+    const Scratch scratch;
+    const std::string file = (scratch / "n/a.fabric.toml").string();
+    ReflectanceTable above = read_reflectance_table(dozen_table(scratch)).normal_incidence();
+    write_reflectance_table(above, scratch / "above.csv");
+    const Outcome none =
+        run(scratch, {"fit", (scratch / "above.csv").string(), "-o", file, "--use", "all"});
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("0 views under oblique light"), std::string::npos) << none.err;
+    EXPECT_FALSE(fs::exists(scratch / "n"));
+    EXPECT_EQ(
+        run(scratch, {"fit", (scratch / "above.csv").string(), "-o", file, "--use", "some"}).status,
+        2);
+}
+
+} // namespace
+} // namespace tsuya::program
