@@ -74,10 +74,19 @@ float AlbedoTable::cosine_above(float value) const {
         std::find_if(value_.rbegin(), value_.rend(), [&](float v) { return v > value; });
     if (last == value_.rend())
         return 0;
-    // Interpolation carries the row's excess up to the next
-    const auto row = static_cast<int>(value_.rend() - last - 1) / columns_ + 1;
-    const float root = static_cast<float>(row) / (kRows - 1);
-    return row < kRows ? root * root : 2.0f;
+    const auto row = static_cast<int>(value_.rend() - last - 1) / columns_;
+    if (row == kRows - 1)
+        return 2;
+    // Interpolation carries the row's excess towards the next; it is linear along the row too, so
+    // that it reaches farthest at a column
+    float reach = 0;
+    for (int i = 0; i < columns_; ++i) {
+        const float *const here = &value_[static_cast<std::size_t>(row * columns_ + i)];
+        if (here[0] > value)
+            reach = std::max(reach, (here[0] - value) / (here[0] - here[columns_]));
+    }
+    const float root = (static_cast<float>(row) + reach) / (kRows - 1);
+    return root * root * (1 + 1e-5f); // the place of a direction is rounded
 }
 
 } // namespace tsuya

@@ -5,13 +5,29 @@
 
 #include <tbb/parallel_for.h>
 
-#include "disk.h"
-
 namespace tsuya {
+namespace {
+
+// The direction whose point of the disk this is: the height by bisection, for it falls with the
+// radius.
+glm::vec3 direction_of_point(const glm::vec2 &p) {
+    constexpr int kHalvings = 40;
+    const double radius = glm::length(glm::dvec2(p));
+    double low = 0, high = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double z = 0.5 * (low + high);
+        const double at = std::sqrt(1 - z * z) * (1 - z * (0.5 - 0.20710678 * z));
+        (at > radius ? low : high) = z;
+    }
+    const double sine = std::sqrt(1 - low * low);
+    return {glm::dvec2(p) * (radius > 0 ? sine / radius : 0.0), low};
+}
+
+} // namespace
 
 DiskTable::DiskTable(int nodes, bool orthotropic,
                      const std::function<float(const glm::vec3 &)> &function)
-    : nodes_(nodes), fold_(orthotropic ? 1.0f : 0.0f),
+    : nodes_(nodes), sign_(orthotropic ? 0x7fffffffu : 0xffffffffu),
       scale_(static_cast<float>(nodes - 1) * (orthotropic ? 1.0f : 0.5f)),
       offset_(orthotropic ? 0 : scale_),
       value_(static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes)) {
@@ -25,7 +41,7 @@ DiskTable::DiskTable(int nodes, bool orthotropic,
             if (const float r = glm::length(p); r > 1)
                 p /= r;
             value_[static_cast<std::size_t>(j) * static_cast<std::size_t>(nodes) +
-                   static_cast<std::size_t>(i)] = function(direction_of_disk(p));
+                   static_cast<std::size_t>(i)] = function(direction_of_point(p));
         }
     });
 }

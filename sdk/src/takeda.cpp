@@ -46,6 +46,15 @@ template <class Mass> Distribution2D tabulate_on_disk(const Mass &mass_at) {
     return {mass, kDensityCells, kDensityCells};
 }
 
+// Made in place: a copy would be read in other pieces than it was written in, and waited for.
+std::optional<SampledDirection> drawn(const glm::vec3 &direction, float f_cos, float pdf_per_sr) {
+    std::optional<SampledDirection> made(std::in_place);
+    made->direction = direction;
+    made->weight = f_cos / pdf_per_sr;
+    made->pdf_per_sr = pdf_per_sr;
+    return made;
+}
+
 glm::vec2 square_about(const glm::vec2 &p) { return 0.5f * (p + 1.0f); }
 
 } // namespace
@@ -61,7 +70,7 @@ TakedaBrdf::TakedaBrdf(const Bard &bard, double f0)
 void TakedaBrdf::tabulate_densities() {
     basics_ = tabulate_on_disk([&](const glm::vec2 &p) {
         const float z = 1 - glm::dot(p, p);
-        return scaled_.at_disk(p.x, p.y) * fresnel(f0_, std::sqrt(0.5f * (1 + z))) * z /
+        return scaled_.at(direction_of_disk(p)) * fresnel(f0_, std::sqrt(0.5f * (1 + z))) * z /
                std::max(z, 0.5f);
     });
     // For the facet that mirrors the view into the light V0 lies between two tilts: twice the
@@ -71,8 +80,8 @@ void TakedaBrdf::tabulate_densities() {
         const float sine = glm::length(p), tilt = std::asin(sine), turned = 2 * tilt;
         const float theta =
             std::sqrt(std::min(turned, kHalfPi) * kHalfPi * turned / (kHalfPi + turned));
-        const glm::vec2 disk = p * (1.41421356f * std::sin(0.5f * theta) / std::max(sine, 1e-9f));
-        return scaled_.at_disk(disk.x, disk.y) * fresnel(f0_, std::cos(tilt)) *
+        const glm::vec2 level = p * (std::sin(theta) / std::max(sine, 1e-9f));
+        return scaled_.at({level, std::cos(theta)}) * fresnel(f0_, std::cos(tilt)) *
                std::exp(-std::max(0.0f, tilt - 0.5f * kHalfPi) / kTail);
     });
 }
@@ -111,8 +120,8 @@ float TakedaBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_vi
 void TakedaBrdf::evaluate_cos(std::span<const glm::vec3> to_light,
                               std::span<const glm::vec3> to_viewer, std::span<float> f_cos) const {
     assert(to_light.size() == f_cos.size() && to_viewer.size() == f_cos.size());
-    kernel::evaluate(scaled_, f0_, to_light.data(), to_viewer.data(), f_cos.data(), f_cos.size());
-    if (limited_below_ > 0)
+    if (kernel::evaluate(scaled_, f0_, limited_below_, to_light.data(), to_viewer.data(),
+                         f_cos.data(), f_cos.size()))
         for (std::size_t i = 0; i < f_cos.size(); ++i)
             if (to_light[i].z < limited_below_)
                 f_cos[i] *= limit(to_light[i]);
@@ -121,11 +130,9 @@ void TakedaBrdf::evaluate_cos(std::span<const glm::vec3> to_light,
 WeighedLight TakedaBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     if (!(to_light.z > 0 && to_viewer.z > 0))
         return {};
-    const kernel::Evaluated pair = kernel::evaluate(scaled_, f0_, to_light, to_viewer);
-    // dH/dL = 1 / (4 V.H); the disk of the horizontal part of H has the area element N.H dH
-    const float of_half = halves_.density(square_about({pair.half_x, pair.half_y})) *
-                          (kDiskOfSquare * 0.125f) * pair.k;
-    return {pair.f_cos * limit(to_light), kHalfShare * of_half + (1 - kHalfShare) * kEvenDensity};
+    const kernel::Weighed pair = kernel::weigh(scaled_, halves_, f0_, to_light, to_viewer);
+    return {pair.f_cos * limit(to_light),
+            kHalfShare * pair.density_per_sr + (1 - kHalfShare) * kEvenDensity};
 }
 
 float TakedaBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
@@ -155,7 +162,7 @@ std::optional<SampledDirection> TakedaBrdf::sample(const glm::vec3 &to_viewer,
     if (!(to_light.z > 0))
         return std::nullopt;
     const WeighedLight light = weigh(to_light, to_viewer);
-    return SampledDirection{to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr};
+    return drawn(to_light, light.f_cos, light.pdf_per_sr);
 }
 
 // Where rho0 repeats after half a turn, V0 is turned to R's side with probability 1/2 - theta_i/pi:
@@ -198,8 +205,7 @@ std::optional<SampledDirection> TakedaBrdf::sample_adjoint(const glm::vec3 &to_l
     const float density = density_of_view(to_basic(to_light, *to_viewer));
     if (!(density > 0))
         return std::nullopt;
-    return SampledDirection{*to_viewer, evaluate(to_light, *to_viewer) * to_viewer->z / density,
-                            density};
+    return drawn(*to_viewer, evaluate(to_light, *to_viewer) * to_viewer->z, density);
 }
 
 float TakedaBrdf::albedo_of_light(const glm::vec3 &to_light) const {

@@ -24,18 +24,17 @@ constexpr std::size_t kWide = 16, kNarrow = 8;
 // As many pairs as fill one vector. Directions are read as the floats that they are: three at a
 // time is what the compiler knows to spread over vectors.
 template <std::size_t kSize>
-inline void evaluate_block(const DiskTable &table, float f0, const float *light, const float *view,
-                           float *out) {
-    alignas(64) float k[kSize], facing[kSize], s[kSize], t[kSize], lz[kSize], vz[kSize];
+inline bool evaluate_block(const DiskTable &table, float f0, float low, const float *light,
+                           const float *view, float *out) {
+    alignas(64) float factor[kSize], s[kSize], t[kSize];
     alignas(64) std::uint32_t index[kSize];
+    int any_low = 0;
     for (std::size_t i = 0; i < kSize; ++i) {
         const float *const l = light + 3 * i, *const v = view + 3 * i;
         const Pair p = pair_of(l[0], l[1], l[2], v[0], v[1], v[2]);
         const DiskTable::Cell cell = table.cell_of(p.x, p.y);
-        k[i] = p.k;
-        facing[i] = p.facing;
-        lz[i] = l[2];
-        vz[i] = v[2];
+        factor[i] = least(l[2], v[2]) > 0 ? times_cosine(1, f0, p, l[2], v[2]) : 0.0f;
+        any_low |= l[2] < low ? 1 : 0;
         index[i] = cell.index;
         s[i] = cell.s;
         t[i] = cell.t;
@@ -51,20 +50,21 @@ inline void evaluate_block(const DiskTable &table, float f0, const float *light,
     for (std::size_t i = 0; i < kSize; ++i) {
         const float value = (1 - t[i]) * ((1 - s[i]) * row[i][0] + s[i] * row[i][1]) +
                             t[i] * ((1 - s[i]) * next[i][0] + s[i] * next[i][1]);
-        const float result = times_cosine(value, f0, {0, 0, k[i], facing[i], 0, 0}, lz[i], vz[i]);
-        out[i] = least(lz[i], vz[i]) > 0 ? result : 0.0f;
+        out[i] = value * factor[i];
     }
+    return any_low != 0;
 }
 
 // Fewer than fill a vector
 template <std::size_t kSize>
-inline void evaluate_rest(const DiskTable &table, float f0, const float *light, const float *view,
-                          float *out, std::size_t count) {
+inline bool evaluate_rest(const DiskTable &table, float f0, float low, const float *light,
+                          const float *view, float *out, std::size_t count) {
     float lights[3 * kSize] = {}, views[3 * kSize] = {}, results[kSize];
     std::copy_n(light, 3 * count, lights);
     std::copy_n(view, 3 * count, views);
-    evaluate_block<kSize>(table, f0, lights, views, results);
+    const bool any_low = evaluate_block<kSize>(table, f0, low, lights, views, results);
     std::copy_n(results, count, out);
+    return any_low;
 }
 
 } // namespace
@@ -78,27 +78,33 @@ float f_cos(const DiskTable &table, float f0, const glm::vec3 &to_light,
 }
 
 TSUYA_FOR_EVERY_PROCESSOR
-Evaluated evaluate(const DiskTable &table, float f0, const glm::vec3 &to_light,
-                   const glm::vec3 &to_viewer) {
+Weighed weigh(const DiskTable &table, const Distribution2D &halves, float f0,
+              const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     const Pair p =
         pair_of(to_light.x, to_light.y, to_light.z, to_viewer.x, to_viewer.y, to_viewer.z);
-    return {times_cosine(table.at_disk(p.x, p.y), f0, p, to_light.z, to_viewer.z), p.k, p.half_x,
-            p.half_y};
+    // dH/dL = 1 / (4 V.H); the disk of the horizontal part of H has the area element N.H dH, the
+    // square about it four times the area of the disk's own
+    const float over_facing = 1 / p.facing, quarter = 0.25f * over_facing;
+    const float at_half = halves.density({quarter * p.half_x + 0.5f, quarter * p.half_y + 0.5f});
+    return {times_cosine(table.at_disk(p.x, p.y), f0, p, to_light.z, to_viewer.z),
+            at_half * (0.03125f * over_facing * over_facing) * p.half_z};
 }
 
 TSUYA_FOR_EVERY_PROCESSOR
-void evaluate(const DiskTable &table, float f0, const glm::vec3 *to_light,
+bool evaluate(const DiskTable &table, float f0, float low, const glm::vec3 *to_light,
               const glm::vec3 *to_viewer, float *out, std::size_t count) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     const float *light = &to_light->x, *view = &to_viewer->x;
+    bool any_low = false;
     for (; count >= kWide; count -= kWide, light += 3 * kWide, view += 3 * kWide, out += kWide)
-        evaluate_block<kWide>(table, f0, light, view, out);
+        any_low |= evaluate_block<kWide>(table, f0, low, light, view, out);
     if (count == kNarrow)
-        evaluate_block<kNarrow>(table, f0, light, view, out);
+        any_low |= evaluate_block<kNarrow>(table, f0, low, light, view, out);
     else if (count > kNarrow)
-        evaluate_rest<kWide>(table, f0, light, view, out, count);
+        any_low |= evaluate_rest<kWide>(table, f0, low, light, view, out, count);
     else if (count > 0)
-        evaluate_rest<kNarrow>(table, f0, light, view, out, count);
+        any_low |= evaluate_rest<kNarrow>(table, f0, low, light, view, out, count);
+    return any_low;
 }
 
 } // namespace tsuya::kernel

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/disk_table.h"
+#include "tsuya/sdk/distribution.h"
 
 namespace tsuya::kernel {
 
@@ -39,68 +40,51 @@ inline float cosine_of(float d) {
     return (1 - d) * (1 + d) * (low + (high + 2.35839046e-05f * q2) * q2);
 }
 
-// 1 / sqrt(1 + z), z in [0, 1]; 4e-7
-inline float disk_scale(float z) {
-    const float z2 = z * z;
-    const float low = (0.999999701f - 0.499959877f * z) + (0.37409959f - 0.304589747f * z) * z2;
-    const float high = (0.237753768f - 0.151492232f * z) + (0.0638943247f - 0.0125989583f * z) * z2;
-    return low + high * (z2 * z2);
-}
-
 struct Pair {
-    float x, y;           // V0 on the equal-area disk
-    float k;              // 2 N.H / V.H
+    float x, y;           // V0 on the disk of the table
     float facing;         // L.H = V.H
-    float half_x, half_y; // of H
+    float facing2;        // its square
+    float half_x, half_y; // of L + V
+    float half_z;
 };
 
-// Both directions unit with z >= 0.
+// Both directions unit with z >= 0. The order of the operations is that in which their results are
+// waited for: sqrt and division by the level first, the two arcs next, all else beside them.
 inline Pair pair_of(float lx, float ly, float lz, float vx, float vy, float vz) {
     // Light from straight above: any azimuth will do
-    constexpr float kSmallSquare = 1e-20f, kSmallStep = 1e-10f;
-    lx = lx * lx + ly * ly > kSmallSquare ? lx : kSmallStep;
-    const float level2 = lx * lx + ly * ly, level = std::sqrt(level2);
+    lx += std::copysign(1e-10f, lx);
+    const float level2 = lx * lx + ly * ly, level = std::sqrt(level2), over_level = 1 / level;
     const float along = -(lx * vx + ly * vy), across = lx * vy - ly * vx;
-    // |L_xy| times the sine of beta
+    // Beta between R and V, which is R cos beta + sin beta (up N + aside (N x R))
+    const float cosine = along * over_level;
     const float reach = most(std::sqrt(level2 * vz * vz + across * across), 1e-24f);
-    const float inverse = 1 / (level * reach);
-    const float over_level = reach * inverse, over_sine = level * level * inverse;
-    const float cosine = least(most(along * over_level, -1.0f), 1.0f);
-    const float sine = reach * over_level;
+    const float sine = reach * over_level, over_reach = 1 / reach;
+    const float up = level * vz * over_reach, aside = across * over_reach;
 
-    // Angles in quarter turns: beta between R and V; the light's
-    // from the horizon, which keeps its precision at grazing
-    const float rest = most(lz * angle_over_sine(least(level, 1.0f)), 1e-7f), wide = 2 - rest;
+    // [Takeda] Eq. 15 for beta0 - 1, angles in quarter turns. The light's from the horizon keeps
+    // its precision at grazing; `acute` is beta where the cosine is positive, 2 - beta elsewhere.
+    const float rest = most(lz * angle_over_sine(level), 1e-7f), wide = 2 - rest;
+    const float inverse = 1 / (rest * wide), behind = rest * inverse;
     const float acute = sine * angle_over_sine(std::fabs(cosine));
-    const float obtuse = 0.5f - std::copysign(0.5f, cosine); // 1 or 0
-    const float beta = most(acute, obtuse * (2 - acute));
+    const float sign = std::copysign(1.0f, cosine);
+    // Either branch is the lower one where it holds; behind R only the second does
+    const float first = acute * (wide * inverse) + (1 - 2 * sign);
+    const float second = acute * (sign * behind) + (1 - (1 + sign) * behind);
+    const float d = most(least(first, second), -1.0f);
+    const float minus_cosine0 = sine_of(d), sine0 = cosine_of(d);
 
-    // |L + V|^2 / 2 = 1 + L.V, without the cancellation where they are opposite
+    // V0: a unit vector also where V is all but R
+    const float scale = DiskTable::scale_of(sine0 * up) * over_level, side = sine0 * aside;
     const float hx = lx + vx, hy = ly + vy, hz = lz + vz;
-    const float sum = most(0.5f * (hx * hx + hy * hy + hz * hz), 1e-14f);
-    const float facing = std::sqrt(0.5f * sum);
-
-    // [Takeda] Eq. 15. Either branch is the lower one where it holds.
-    const float shared = 1 / (rest * wide * facing);
-    const float towards = beta * (wide * facing * shared);
-    const float behind = 2 - (2 - beta) * (rest * facing * shared);
-    const float beta0 = most(least(towards, behind), 0.0f);
-    const float cosine0 = -sine_of(beta0 - 1), sine0 = cosine_of(beta0 - 1);
-
-    // V0 = cos beta0 R + (sin beta0 / sin beta) (V - cos beta R), by its parts along R, across it
-    // and along N: a unit vector also where V is all but R
-    const float ratio = sine0 * over_sine;
-    const float side = ratio * across * over_level;
-    const float over_facing = rest * wide * shared;
-    const float scale = disk_scale(least(ratio * vz, 1.0f));
-    const float half = 0.5f * over_facing; // 1 / |L + V|
-    const float level_scale = over_level * scale;
-    return {-(cosine0 * lx + side * ly) * level_scale,
-            (side * lx - cosine0 * ly) * level_scale,
-            hz * over_facing * over_facing,
-            least(facing, 1.0f),
-            hx * half,
-            hy * half};
+    // |L + V|^2 / 4 = (1 + L.V) / 2, without the cancellation where they are opposite
+    const float facing2 = most(0.25f * (hx * hx + hy * hy + hz * hz), 5e-15f);
+    return {(minus_cosine0 * lx - side * ly) * scale,
+            (minus_cosine0 * ly + side * lx) * scale,
+            std::sqrt(facing2),
+            facing2,
+            hx,
+            hy,
+            hz};
 }
 
 // rho times the first cosine, from the value of the table at V0: [Takeda] Eq. 14 in its regular
@@ -108,22 +92,26 @@ inline Pair pair_of(float lx, float ly, float lz, float vx, float vy, float vz) 
 inline float times_cosine(float at_basic, float f0, const Pair &p, float first, float second) {
     const float m = 1 - p.facing, m2 = m * m;
     const float fresnel = f0 + (1 - f0) * m2 * m2 * m; // [Takeda] Eq. 5
-    const float masked = least(1.0f, p.k * least(first, second));
-    return at_basic * fresnel * masked / most(second, 1e-18f);
+    const float masked = least(p.facing2, p.half_z * least(first, second));
+    return at_basic * (fresnel * masked / (p.facing2 * most(second, 1e-18f)));
 }
 
-// A pair with its value. The directions are unit, finite, with z > 0.
-struct Evaluated {
-    float f_cos; // rho times the light's cosine, before the limit of energy
-    float k, half_x, half_y;
-};
+// rho times the light's cosine, before the limit of energy. The directions are unit, finite, with
+// z > 0, here and below.
 float f_cos(const DiskTable &table, float f0, const glm::vec3 &to_light,
             const glm::vec3 &to_viewer);
-Evaluated evaluate(const DiskTable &table, float f0, const glm::vec3 &to_light,
-                   const glm::vec3 &to_viewer);
 
-// f_cos of many pairs, 0 where one of the two is at or below the horizon.
-void evaluate(const DiskTable &table, float f0, const glm::vec3 *to_light,
+// The same with the density of the light where H is drawn from `halves`, which is over the square
+// about the disk of its horizontal part.
+struct Weighed {
+    float f_cos, density_per_sr;
+};
+Weighed weigh(const DiskTable &table, const Distribution2D &halves, float f0,
+              const glm::vec3 &to_light, const glm::vec3 &to_viewer);
+
+// f_cos of many pairs, 0 where one of the two is at or below the horizon. Returns whether a light
+// may have a cosine below `low`.
+bool evaluate(const DiskTable &table, float f0, float low, const glm::vec3 *to_light,
               const glm::vec3 *to_viewer, float *f_cos, std::size_t count);
 
 } // namespace tsuya::kernel

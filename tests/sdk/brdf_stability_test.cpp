@@ -293,7 +293,7 @@ TEST(TakedaKernel, IsTheMapOfGreatCircle) {
             continue;
         const kernel::Pair pair = kernel::pair_of(l.x, l.y, l.z, v.x, v.y, v.z);
         const glm::vec3 basic = to_basic(l, v).basic;
-        const float scale = 1 / std::sqrt(1 + basic.z);
+        const float scale = DiskTable::scale_of(basic.z);
         worst =
             std::max<double>(worst, std::hypot(pair.x - basic.x * scale, pair.y - basic.y * scale));
     }

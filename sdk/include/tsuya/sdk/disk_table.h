@@ -2,6 +2,7 @@
 /// \file
 /// A function of direction as a table on the equal-area disk of the hemisphere.
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +21,13 @@ class DiskTable {
     DiskTable(int nodes, bool orthotropic, const std::function<float(const glm::vec3 &)> &function);
     /// \param direction unit, z >= 0
     float at(const glm::vec3 &direction) const {
-        const float scale = 1 / std::sqrt(1 + direction.z);
+        const float scale = scale_of(direction.z);
         return at_disk(direction.x * scale, direction.y * scale);
     }
-    /// \param x, y in [-1, 1]: the horizontal part of a direction over sqrt(1 + z)
+    /// What takes the horizontal part of a direction to its point of the disk. It is 1 / sqrt(1 +
+    /// z), which would keep areas, but for at most 2.1 %, and takes less time.
+    static float scale_of(float z) { return 1 - z * (0.5f - 0.20710678f * z); }
+    /// \param x, y a point of the unit disk
     float at_disk(float x, float y) const {
         const Cell c = cell_of(x, y);
         const float *const row = &value_[c.index], *const next = row + nodes_;
@@ -37,8 +41,8 @@ class DiskTable {
         float s, t;
     };
     Cell cell_of(float x, float y) const {
-        x = (fold_ * std::fabs(x) + (1 - fold_) * x) * scale_ + offset_;
-        y = (fold_ * std::fabs(y) + (1 - fold_) * y) * scale_ + offset_;
+        x = std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & sign_) * scale_ + offset_;
+        y = std::bit_cast<float>(std::bit_cast<std::uint32_t>(y) & sign_) * scale_ + offset_;
         // Conversion cuts towards 0: rounding below the first node stays at it. What is no number
         // becomes a large index, and so the last.
         const auto last = static_cast<std::uint32_t>(nodes_ - 2);
@@ -55,8 +59,8 @@ class DiskTable {
 
   private:
     int nodes_ = 0;
-    float fold_ = 1;               ///< 0 where the table holds the whole square
-    float scale_ = 0, offset_ = 0; ///< from the disk to nodes
+    std::uint32_t sign_ = 0x7fffffff; ///< the bits of a coordinate that are kept: folds quadrants
+    float scale_ = 0, offset_ = 0;    ///< from the disk to nodes
     std::vector<float> value_{};
 };
 

@@ -2,6 +2,7 @@
 /// \file
 /// A piecewise constant density on a rectangle of cells, sampled by inversion.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,9 +27,13 @@ class Distribution2D {
     /// \param u in [0,1)^2
     Sample sample(glm::vec2 u) const;
     /// Density at a point of the unit square.
-    float density(glm::vec2 point) const;
+    float density(glm::vec2 point) const {
+        const std::size_t row = cell_of(point.y, rows_), column = cell_of(point.x, columns_);
+        const float *const cdf = &column_cdf_[row * (columns_ + 1) + column];
+        return row_density_[row] * (cdf[1] - cdf[0]);
+    }
     std::size_t bytes() const {
-        return (row_cdf_.size() + column_cdf_.size()) * sizeof(float) +
+        return (row_cdf_.size() + row_density_.size() + column_cdf_.size()) * sizeof(float) +
                (row_guide_.size() + column_guide_.size()) * sizeof(std::uint16_t);
     }
 
@@ -37,13 +42,43 @@ class Distribution2D {
         std::size_t cell;
         float offset; ///< in [0, 1)
     };
+    static std::size_t cell_of(float x, std::size_t cells) {
+        // What is below 0 or no number becomes a large index, and so the last
+        const auto cell = static_cast<std::uint32_t>(
+            static_cast<std::int32_t>(x * static_cast<float>(static_cast<std::int32_t>(cells))));
+        return std::min<std::size_t>(cell, cells - 1);
+    }
     static Draw invert(const float *cdf, const std::uint16_t *guide, std::size_t cells, float u);
 
     std::size_t rows_ = 0, columns_ = 0;
-    std::vector<float> row_cdf_{};    ///< rows + 1
-    std::vector<float> column_cdf_{}; ///< [row][column], columns + 1 each
+    std::vector<float> row_cdf_{};     ///< rows + 1
+    std::vector<float> row_density_{}; ///< of the unit square: mass of the row times all cells
+    std::vector<float> column_cdf_{};  ///< [row][column], columns + 1 each
     /// Where the search in a cumulative sum begins, for even steps of u: one step a cell
     std::vector<std::uint16_t> row_guide_{}, column_guide_{};
 };
+
+inline Distribution2D::Draw Distribution2D::invert(const float *cdf, const std::uint16_t *guide,
+                                                   std::size_t cells, float u) {
+    const auto step = static_cast<std::size_t>(static_cast<int>(u * static_cast<float>(cells)));
+    std::size_t cell = guide[std::min(step, cells - 1)];
+    // Mostly the first cell or the next, without a branch that could not be foretold
+    cell +=
+        static_cast<std::size_t>(cell + 1 < cells) & static_cast<std::size_t>(cdf[cell + 1] <= u);
+    while (cell + 1 < cells && cdf[cell + 1] <= u)
+        ++cell;
+    const float width = cdf[cell + 1] - cdf[cell];
+    const float offset = width > 0 ? (u - cdf[cell]) / width : 0.5f;
+    return {cell, std::clamp(offset, 0.0f, 0x1.fffffep-1f)};
+}
+
+inline Distribution2D::Sample Distribution2D::sample(glm::vec2 u) const {
+    const Draw row = invert(row_cdf_.data(), row_guide_.data(), rows_, u.y);
+    const float *const cdf = &column_cdf_[row.cell * (columns_ + 1)];
+    const Draw column = invert(cdf, &column_guide_[row.cell * columns_], columns_, u.x);
+    return {{(static_cast<float>(column.cell) + column.offset) / static_cast<float>(columns_),
+             (static_cast<float>(row.cell) + row.offset) / static_cast<float>(rows_)},
+            row_density_[row.cell] * (cdf[column.cell + 1] - cdf[column.cell])};
+}
 
 } // namespace tsuya
