@@ -1,12 +1,15 @@
 // tsuya fabric evaluate: how far the models of a fabric lie from a table.
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
 
 #include "command.h"
 #include "json_file.h"
+#include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/file.h"
 #include "tsuya/sdk/model.h"
 
 namespace tsuya::program {
@@ -32,6 +35,8 @@ class EvaluateCommand final : public Command {
         app_.add_option("--against", table_, "TABLE.csv of reflectance")->required();
         app_.add_option("--model", model_,
                         "A model, or all that the fabric has the data of; the fabric's own");
+        app_.add_option("--values", values_,
+                        "Also VALUES.csv: every row of the table beside the models' values");
         app_.add_flag("--json", json_, "As JSON");
     }
 
@@ -50,15 +55,45 @@ class EvaluateCommand final : public Command {
                 if (has_data_of(std::string(model.name), fabric))
                     models.emplace_back(model.name);
         }
+        if (!values_.empty())
+            scene::prepare_output_file(values_, {".csv"});
         std::vector<Result> results;
-        for (const std::string &model : models)
-            results.push_back(
-                {model, measure_accuracy(table, make_model(model, fabric, fabric_.string()))});
+        std::vector<BrdfFunction> functions;
+        for (const std::string &model : models) {
+            functions.push_back(make_model(model, fabric, fabric_.string()));
+            results.push_back({model, measure_accuracy(table, functions.back())});
+        }
+        if (!values_.empty())
+            write_values(table, models, functions);
         json_ ? print_json(results) : print_text(results);
         return kDone;
     }
 
   private:
+    void write_values(const ReflectanceTable &table, const std::vector<std::string> &models,
+                      const std::vector<BrdfFunction> &functions) const {
+        std::ostringstream out;
+        out << "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr";
+        for (const std::string &model : models)
+            out << "," << model;
+        const auto direction = [](double theta, double phi) {
+            return glm::dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                              std::max(std::cos(theta), 0.0));
+        };
+        for (const ReflectanceRow &row : table.rows) {
+            out << "\n"
+                << degrees_of(row.theta_i) << "," << degrees_of(row.phi_i) << ","
+                << degrees_of(row.theta_r) << "," << degrees_of(row.phi_r) << ","
+                << row.brdf_per_sr;
+            for (const BrdfFunction &function : functions)
+                out << ","
+                    << function(direction(row.theta_i, row.phi_i),
+                                direction(row.theta_r, row.phi_r));
+        }
+        out << "\n";
+        write_file(values_, out.str());
+    }
+
     void print_json(const std::vector<Result> &results) const {
         Json json{{"schema", "tsuya-fabric-evaluate 1"},
                   {"fabric", fabric_.string()},
@@ -111,7 +146,7 @@ class EvaluateCommand final : public Command {
     }
 
     CLI::App &app_;
-    std::filesystem::path fabric_{}, table_{};
+    std::filesystem::path fabric_{}, table_{}, values_{};
     std::string model_{};
     bool json_ = false;
 };

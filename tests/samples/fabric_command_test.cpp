@@ -1,6 +1,7 @@
 // tsuya fabric, from end to end.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <nlohmann/json.hpp>
@@ -81,6 +82,20 @@ TEST(FabricEvaluate, FindsTheSampleSatinNearItsOwnTable) {
             EXPECT_GT(result["mean"]["l2_cos"], 0.3); // the diffuser is not the satin
         }
     EXPECT_TRUE(has_lambert);
+}
+
+TEST(FabricEvaluate, WritesValuesBesideTheTable) {
+    const Scratch scratch;
+    const std::string values = (scratch / "n/values.csv").string();
+    const Outcome done =
+        run(scratch, {"evaluate", satin().string(), "--against", small_table(scratch), "--model",
+                      "lambert", "--values", values});
+    ASSERT_EQ(done.status, 0) << done.err;
+    const std::string text = read_file(values);
+    EXPECT_EQ(text.rfind("theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr,lambert\n", 0),
+              0u);
+    EXPECT_NE(text.find("\n45,90,45,270,0.4,0.0"), std::string::npos) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 6);
 }
 
 TEST(FabricEvaluate, RefusesWrongInput) {
