@@ -5,6 +5,40 @@
 
 namespace tsuya::garment {
 
+namespace {
+
+std::string counts_of(const PolygonMesh &mesh) {
+    return std::to_string(mesh.position.size()) + " vertices, " + std::to_string(mesh.uv.size()) +
+           " UVs and " + std::to_string(mesh.face_count()) + " faces";
+}
+
+void check_same_faces(const PolygonMesh &first, const PolygonMesh &other,
+                      const std::string &first_name, const std::string &name) {
+    if (other.face_offset == first.face_offset && other.corner_position == first.corner_position &&
+        other.corner_uv == first.corner_uv && other.position.size() == first.position.size())
+        return;
+    const std::string counts = counts_of(other), expected = counts_of(first);
+    throw Error({counts == expected ? counts + ", as in the first frame, but joined in another way"
+                                    : counts + ", where the first frame has " + expected,
+                 name, "expected the faces of " + first_name});
+}
+
+} // namespace
+
+GarmentFrames read_frames(const std::filesystem::path &first,
+                          const std::vector<std::filesystem::path> &further,
+                          bool with_morph_targets) {
+    GarmentFrames frames{.first = read_mesh(first)};
+    if (with_morph_targets)
+        frames.further = frames.first.morph_targets;
+    for (const std::filesystem::path &file : further) {
+        PolygonMesh mesh = read_mesh(file).mesh;
+        check_same_faces(frames.first.mesh, mesh, first.string(), file.string());
+        frames.further.push_back(std::move(mesh.position));
+    }
+    return frames;
+}
+
 struct AnimatedGarment::State {
     double metres_per_unit;
     std::string where;

@@ -1,10 +1,13 @@
 #include "limit_surface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <opensubdiv/far/topologyDescriptor.h>
 
 #include "edges.h"
+#include "fans.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -19,7 +22,10 @@ constexpr int kMaxLevel = 8;
 /// only approximates it. In the middle of a triangle among quads the normal errs by up to 0.01 at
 /// level 2, 0.0015 at level 4 and 3e-5 at level 8; vertices have LimitCorners.
 constexpr int kApproximationLevel = 8;
+constexpr int kSharpApproximationLevel = 10; ///< the same where creases are
 constexpr double kInfinitelySharp = 10.0; // Sdc::Crease::SHARPNESS_INFINITE
+/// Sharper edges have a normal for each side, which only seams have room for.
+constexpr double kSharpestFold = 9.0;
 
 using Refiner = std::unique_ptr<Far::TopologyRefiner>;
 
@@ -44,6 +50,12 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
     if (!(options.seam_crease >= 0.0 && options.seam_crease <= kInfinitelySharp))
         throw Error({"crease " + std::to_string(options.seam_crease) + " is out of range",
                      "subdivide.seam_crease", "expected 0 to 10"});
+    if (!(options.fold_crease >= 0.0 && options.fold_crease <= kSharpestFold))
+        throw Error({"crease " + std::to_string(options.fold_crease) + " is out of range",
+                     "subdivide.fold_crease", "expected 0 to 9"});
+    if (!(options.fold_angle >= 0.0 && options.fold_angle <= std::numbers::pi))
+        throw Error({"angle " + std::to_string(options.fold_angle) + " is out of range",
+                     "subdivide.fold_angle", "expected 0 to pi radians"});
     if (options.tolerance && !(*options.tolerance > 0.0 && std::isfinite(*options.tolerance)))
         throw Error({"tolerance " + std::to_string(*options.tolerance) + " is out of range",
                      "subdivide.tolerance", "expected a length in metres above 0"});
@@ -65,20 +77,36 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
                          "mesh", "expected fewer than " + std::to_string(kMaxValence)});
 }
 
-/// Ends of edges where the UVs or panels of the two sides part.
-std::vector<Far::Index> seam_edges(const PolygonMesh &mesh) {
-    std::vector<Far::Index> ends;
+struct Creases {
+    std::vector<Far::Index> ends; ///< two vertices an edge
+    std::vector<float> sharpness; ///< per edge
+};
+
+/// Edges where the UVs of the two sides part, and those that are folded by more than the angle.
+Creases find_creases(const PolygonMesh &mesh, const SubdivideOptions &options) {
+    Creases creases;
+    if (options.seam_crease <= 0.0 && options.fold_crease <= 0.0)
+        return creases;
     EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
         if (uses.size() != 2)
             return;
         const EdgeUse &a = uses[0], &b = uses[1];
-        if (uv_at(mesh, a, a.low) == uv_at(mesh, b, b.low) &&
-            uv_at(mesh, a, a.high) == uv_at(mesh, b, b.high))
+        double sharpness = 0.0;
+        if (uv_at(mesh, a, a.low) != uv_at(mesh, b, b.low) ||
+            uv_at(mesh, a, a.high) != uv_at(mesh, b, b.high))
+            sharpness = options.seam_crease;
+        double area_a = 0.0, area_b = 0.0;
+        const glm::dvec3 n_a = face_normal(mesh, a.face, area_a),
+                         n_b = face_normal(mesh, b.face, area_b);
+        if (area_a > 0.0 && area_b > 0.0 && glm::dot(n_a, n_b) < std::cos(options.fold_angle))
+            sharpness = std::max(sharpness, options.fold_crease);
+        if (sharpness <= 0.0)
             return;
-        ends.push_back(static_cast<Far::Index>(a.low));
-        ends.push_back(static_cast<Far::Index>(a.high));
+        creases.ends.push_back(static_cast<Far::Index>(a.low));
+        creases.ends.push_back(static_cast<Far::Index>(a.high));
+        creases.sharpness.push_back(static_cast<float>(sharpness));
     });
-    return ends;
+    return creases;
 }
 
 Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,
@@ -93,19 +121,16 @@ Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,
     Far::TopologyDescriptor::FVarChannel channel;
     channel.numValues = static_cast<int>(mesh.uv.size()) + 1;
     channel.valueIndices = uvs.data();
-    std::vector<Far::Index> creases;
-    if (options.seam_crease > 0)
-        creases = seam_edges(mesh);
-    const std::vector<float> sharpness(creases.size() / 2, static_cast<float>(options.seam_crease));
+    const Creases creases = find_creases(mesh, options);
 
     Far::TopologyDescriptor descriptor;
     descriptor.numVertices = static_cast<int>(mesh.position.size());
     descriptor.numFaces = static_cast<int>(sizes.size());
     descriptor.numVertsPerFace = sizes.data();
     descriptor.vertIndicesPerFace = vertices.data();
-    descriptor.numCreases = static_cast<int>(sharpness.size());
-    descriptor.creaseVertexIndexPairs = creases.data();
-    descriptor.creaseWeights = sharpness.data();
+    descriptor.numCreases = static_cast<int>(creases.sharpness.size());
+    descriptor.creaseVertexIndexPairs = creases.ends.data();
+    descriptor.creaseWeights = creases.sharpness.data();
     descriptor.numFVarChannels = mesh.uv.empty() ? 0 : 1;
     descriptor.fvarChannels = &channel;
 
@@ -162,6 +187,7 @@ LimitSurface::LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &opti
     refiner_ = make_refiner(mesh, options, scheme_);
     Factory::Options factory_options;
     factory_options.SetApproxLevelSmooth(kApproximationLevel);
+    factory_options.SetApproxLevelSharp(kSharpApproximationLevel);
     factory_ = std::make_unique<Factory>(*refiner_, factory_options);
     set_positions(mesh.position);
     uv_ = mesh.uv;

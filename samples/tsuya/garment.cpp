@@ -46,6 +46,22 @@ class GarmentCommand final : public Command {
                         "METRES that triangles may depart from the limit surface")
             ->check(CLI::PositiveNumber)
             ->excludes("--level");
+        subdivide_
+            .add_option("--crease", fold_crease_,
+                        "Sharpness of folds, 0 (smooth) to 9: edges bent by more than the angle")
+            ->check(CLI::Range(0.0, 9.0))
+            ->capture_default_str();
+        subdivide_.add_option("--crease-angle", fold_angle_deg_, "DEGREES between the faces")
+            ->check(CLI::Range(0.0, 180.0))
+            ->capture_default_str();
+        subdivide_.add_option("--seam-crease", seam_crease_, "Sharpness of seams, 0 to 10")
+            ->check(CLI::Range(0.0, 10.0))
+            ->capture_default_str();
+        subdivide_
+            .add_option("--max-degenerate-area", max_degenerate_area_,
+                        "Share of the area without a usable UV above which it is an error")
+            ->check(CLI::Range(0.0, 1.0))
+            ->capture_default_str();
         subdivide_.add_flag("--strict", strict_, "Refuse a mesh with a warning");
         subdivide_.add_option(
             "--grain", grain_,
@@ -76,8 +92,13 @@ class GarmentCommand final : public Command {
 
     Status subdivide(Console &console) const {
         const garment::Options options{.metres_per_unit = garment::metres_per(unit_),
-                                       .subdivide = {.level = level_, .tolerance = tolerance_},
-                                       .frames = {.invented_grain = parse_grain(grain_)},
+                                       .subdivide = {.level = level_,
+                                                     .tolerance = tolerance_,
+                                                     .seam_crease = seam_crease_,
+                                                     .fold_crease = fold_crease_,
+                                                     .fold_angle = fold_angle_deg_ / degrees_of(1)},
+                                       .frames = {.invented_grain = parse_grain(grain_),
+                                                  .max_degenerate_area = max_degenerate_area_},
                                        .strict = strict_};
         scene::prepare_output_file(output_, {".obj", ".ply"});
         const garment::LoadedGarment loaded = garment::load(mesh_, options, console.progress());
@@ -133,6 +154,8 @@ class GarmentCommand final : public Command {
     std::string grain_{};
     int level_ = 1;
     std::optional<double> tolerance_{};
+    double seam_crease_ = 0, fold_crease_ = 0, fold_angle_deg_ = 60;
+    double max_degenerate_area_ = garment::FrameOptions{}.max_degenerate_area;
     bool json_ = false, strict_ = false;
 };
 

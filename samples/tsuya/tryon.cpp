@@ -7,6 +7,7 @@
 #include "look_options.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/tryon.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya::program {
 namespace {
@@ -20,7 +21,13 @@ class TryOnCommand final : public Command {
                     "Without a garment: the sample dress on its mannequin.");
         CLI::Option *garment =
             app_.add_option("--garment", garment_, "Mesh (OBJ, glTF, PLY, OFF) with panel UVs");
-        app_.add_option("--body", job_.body, "Mesh that wears it")->needs(garment);
+        app_.add_option("--frames", job_.frames,
+                        "MESHes with the garment's faces and other positions: pictures of each; "
+                        "without --garment the first is the garment");
+        app_.add_flag("--morph-targets", job_.morph_targets,
+                      "Those of the garment (glTF) are frames too")
+            ->needs(garment);
+        app_.add_option("--body", job_.body, "Mesh that wears it");
         app_.add_option("--fabric", fabric_, "F.fabric.toml, or a name of `tsuya list fabrics`")
             ->capture_default_str();
         app_.add_option("--dye", job_.dyes, "Names of `tsuya list dyes`, #rrggbb, F.csv")
@@ -45,6 +52,11 @@ class TryOnCommand final : public Command {
             ->excludes("--level");
         app_.add_option("--grain", grain_,
                         "Of a garment without UV: vertical, horizontal, or degrees from it");
+        app_.add_option("--max-degenerate-area", job_.max_degenerate_area,
+                        "Share of the garment without a usable UV above which it is an error")
+            ->check(CLI::Range(0.0, 1.0))
+            ->capture_default_str();
+        app_.add_flag("--strict", job_.strict, "Refuse a garment with a warning");
         app_.add_option("--azimuth", job_.azimuth_deg, "Of the camera, degrees; 0 sees the front")
             ->check(CLI::Range(-360.0, 360.0))
             ->capture_default_str();
@@ -56,15 +68,20 @@ class TryOnCommand final : public Command {
     bool called() const override { return app_.parsed(); }
 
     Status run(Console &console) override {
-        const std::filesystem::path data = data_folder();
+        if (garment_.empty() && !job_.frames.empty()) {
+            garment_ = job_.frames.front();
+            job_.frames.erase(job_.frames.begin());
+        }
+        if (garment_.empty() && !job_.body.empty())
+            throw Error({"a body without a garment", "--body", "expected --garment or --frames"});
         if (garment_.empty()) {
-            const scene::TryOn sample = scene::sample_try_on(data);
+            const scene::TryOn sample = scene::sample_try_on(data_folder());
             job_.garment = sample.garment;
             job_.body = sample.body;
         } else {
             job_.garment = garment_;
         }
-        job_.fabric = scene::find_fabric(fabric_, data);
+        job_.fabric = scene::find_fabric(fabric_, data_folder());
         job_.invented_grain = parse_grain(grain_);
         job_.look = look_.look();
         job_.render.stop.relative_error = error_;

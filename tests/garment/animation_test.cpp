@@ -1,9 +1,11 @@
 #include "tsuya/garment/animation.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "test_meshes.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya::garment {
 namespace {
@@ -91,6 +93,35 @@ TEST(AnimatedGarment, CurvedFramesAgreeWithTheirOwnMesh) {
         EXPECT_LT(glm::distance(frame.warp[v], loaded.warp[v]), 1e-5f);
         EXPECT_LT(glm::distance(frame.weft[v], loaded.weft[v]), 1e-5f);
     }
+}
+
+TEST(AnimatedGarment, FilesOfOtherFacesAreNamedWithTheirCounts) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("tsuya-frames-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const auto write = [&](const char *name, const std::string &faces, double z) {
+        write_file(folder / name,
+                   "v 0 0 " + std::to_string(z) + "\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + faces);
+        return folder / name;
+    };
+    const auto first = write("a.obj", "f 1 2 3 4\n", 0), second = write("b.obj", "f 1 2 3 4\n", 1),
+               cut = write("c.obj", "f 1 2 3\nf 1 3 4\n", 0),
+               turned = write("d.obj", "f 2 3 4 1\n", 0);
+    const GarmentFrames frames = read_frames(first, {second, second});
+    ASSERT_EQ(frames.further.size(), 2u);
+    EXPECT_EQ(frames.further[0][0].z, 1.0);
+    for (const auto &[file, text] :
+         {std::pair(cut, "2 faces, where the first frame has 4 vertices, 0 UVs and 1 faces"),
+          {turned, "joined in another way"}})
+        try {
+            read_frames(first, {second, file});
+            FAIL();
+        } catch (const Error &error) {
+            EXPECT_EQ(error.problems().at(0).where, file.string());
+            EXPECT_NE(error.problems().at(0).what.find(text), std::string::npos)
+                << error.problems().at(0).what;
+        }
+    std::filesystem::remove_all(folder);
 }
 
 } // namespace

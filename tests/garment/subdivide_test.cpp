@@ -58,6 +58,37 @@ TEST(Subdivide, HemsKeepCornersAndStraightEdges) {
     EXPECT_LT(glm::distance(upper, glm::dvec3(0.3, 0.2, 0.0)), 1e-12);
 }
 
+TEST(Subdivide, PressedFoldsStaySharp) {
+    // A sheet bent at a right angle along the middle, as one mesh with one UV: the surface lies in
+    // two planes, but for what is rounded along the fold.
+    const PolygonMesh sheet = test::grid(8, 4, false, false, glm::dvec2(0.1), [](int i, int j) {
+        return glm::dvec3(i < 4 ? 0.1 * (i - 4) : 0.0, 0.1 * j, i < 4 ? 0.0 : 0.1 * (i - 4));
+    });
+    const auto rounded = [&](double crease, double angle) {
+        const LimitMesh limit =
+            subdivide(sheet, {.level = 4, .fold_crease = crease, .fold_angle = angle});
+        double worst = 0.0;
+        for (const glm::dvec3 &p : limit.position)
+            worst = std::max(worst, std::min(std::abs(p.x), std::abs(p.z)));
+        return worst;
+    };
+    EXPECT_GT(rounded(0.0, 1.0), 0.01);
+    EXPECT_GT(rounded(9.0, 1.6), 0.01); // folded by less than that
+    EXPECT_LT(rounded(9.0, 1.5), 1e-4); // of faces of 0.1
+    EXPECT_LT(rounded(2.0, 1.5), 0.3 * rounded(0.0, 1.5));
+    // Flat away from the fold, and smooth across it where it is not sharp.
+    const LimitMesh limit = subdivide(sheet, {.level = 2, .fold_crease = 9.0});
+    for (std::size_t v = 0; v < limit.position.size(); ++v) {
+        const glm::dvec3 p = limit.position[v];
+        if (p.x < -0.01) {
+            EXPECT_GT(std::abs(limit.normal[v].z), 1.0f - 1e-5f);
+        }
+        if (p.z > 0.01) {
+            EXPECT_GT(std::abs(limit.normal[v].x), 1.0f - 1e-5f);
+        }
+    }
+}
+
 TEST(Subdivide, IsTheSameEveryTime) {
     const PolygonMesh mesh = test::Torus().mesh(40);
     const LimitMesh a = subdivide(mesh, {.level = 2}), b = subdivide(mesh, {.level = 2});
@@ -79,6 +110,8 @@ TEST(Subdivide, BadOptionsAndMeshesAreErrors) {
     EXPECT_EQ(where(test::cube(), {.level = -1}), "subdivide.level");
     EXPECT_EQ(where(test::cube(), {.scheme = Scheme::loop}), "subdivide.scheme");
     EXPECT_EQ(where(test::cube(), {.seam_crease = -1.0}), "subdivide.seam_crease");
+    EXPECT_EQ(where(test::cube(), {.fold_crease = 10.0}), "subdivide.fold_crease");
+    EXPECT_EQ(where(test::cube(), {.fold_angle = 4.0}), "subdivide.fold_angle");
     PolygonMesh fan;
     fan.position.emplace_back(0, 0, 0);
     const std::uint32_t n = 600;

@@ -112,7 +112,9 @@ TEST(SceneFile, ReadsEveryKey) {
         "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\ntransmittance = 0.2\nweft_tint = \"#ff0000\"\n"
         "warp_tint = \"flat.csv\"\nspecular_tint = 0.9\n[fabrics.b]\nreflectance = 0.25\n"
         "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nlevel = 3\n"
-        "tolerance_px = 0.5\ntranslate = [1, 2, 3]\nvisible = false\nmetres_per_uv = "
+        "tolerance_px = 0.5\nstrict = true\nmax_degenerate_area = 0.5\nseam_crease = 3\n"
+        "fold_crease = 4\nfold_angle_deg = 30\ntranslate = [1, 2, 3]\nvisible = "
+        "false\nmetres_per_uv = "
         "2\ndefault_grain_deg = 90\n"
         "invented_grain_deg = 45\ngrain.panel = 30\n"
         "[bodies.b]\nmesh = \"cloth.obj\"\nfabric = \"a\"\n"
@@ -141,6 +143,11 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(garment.options.metres_per_unit, 0.001);
     EXPECT_EQ(garment.options.subdivide.level, 3);
     EXPECT_EQ(garment.tolerance_px, 0.5);
+    EXPECT_TRUE(garment.options.strict);
+    EXPECT_EQ(garment.options.frames.max_degenerate_area, 0.5);
+    EXPECT_EQ(garment.options.subdivide.seam_crease, 3);
+    EXPECT_EQ(garment.options.subdivide.fold_crease, 4);
+    EXPECT_NEAR(garment.options.subdivide.fold_angle, 30 * kDegree, 1e-12);
     EXPECT_EQ(garment.translate, glm::dvec3(1, 2, 3));
     EXPECT_FALSE(garment.visible);
     EXPECT_EQ(garment.options.metres_per_uv, 2.0);

@@ -109,6 +109,53 @@ TEST(TryOn, APixelToleranceKeepsTheSilhouette) {
     EXPECT_LT(coverage_apart(within, truth), 0.5 * coverage_apart(coarse, truth));
 }
 
+TEST(TryOn, FramesGiveNumberedPictures) {
+    const Scratch scratch;
+    const auto cloth = [&](const char *name, const std::string &z) {
+        std::string text = cloth_obj();
+        text.replace(text.find("v 0.2 0.6 0"), 11, "v 0.2 0.6 " + z);
+        return scratch.write(name, text);
+    };
+    TryOn job = small_job(scratch / "out");
+    job.garment = cloth("cloth_0.obj", "0");
+    job.frames = {cloth("cloth_1.obj", "0.3"), cloth("cloth_2.obj", "0")};
+    job.body.clear();
+    job.dyes = {"indigo"};
+    const TryOnResult result = run(job);
+    std::vector<std::string> names;
+    for (const fs::path &file : result.files)
+        names.push_back(file.filename().string());
+    EXPECT_EQ(names, (std::vector<std::string>{"indigo-0000.exr", "indigo-D65-0000.png",
+                                               "indigo-0001.exr", "indigo-D65-0001.png",
+                                               "indigo-0002.exr", "indigo-D65-0002.png"}));
+    const auto pixels = [&](std::size_t i) { return read_file(result.files.at(i)); };
+    EXPECT_NE(pixels(1), pixels(3)); // it moves
+    EXPECT_EQ(pixels(1), pixels(5)); // and comes back
+    job.frames = {sample_try_on(data_folder()).garment};
+    job.output = scratch / "other";
+    EXPECT_THROW(run(job), Error);
+    EXPECT_FALSE(fs::exists(job.output));
+}
+
+TEST(TryOn, StrictRefusesAGarmentWithAWarning) {
+    const Scratch scratch;
+    TryOn job = small_job(scratch / "out");
+    job.body.clear();
+    job.garment = scratch.write("cloth.obj", cloth_obj());
+    job.strict = true;
+    make_try_on_scene(job);
+    job.garment = scratch.write("twice.obj", cloth_obj() + std::string("f 1/1 2/2 3/3 4/4\n"));
+    EXPECT_THROW(make_try_on_scene(job), Error);
+    job.strict = false;
+    make_try_on_scene(job);
+    // Half of the area without a UV.
+    job.garment = scratch.write("half.obj", cloth_obj() + std::string("v 0.6 0.6 0\nv 0.6 0 0\n"
+                                                                      "f 2 6 5 3\n"));
+    EXPECT_THROW(make_try_on_scene(job), Error);
+    job.max_degenerate_area = 1;
+    make_try_on_scene(job);
+}
+
 TEST(TryOn, KeepsTheFabricsOwnDye) {
     const Scratch scratch;
     TryOn job = small_job(scratch.folder());

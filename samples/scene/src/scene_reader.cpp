@@ -174,6 +174,10 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         entry.options.subdivide.level = section.integer("level", 0, 8).value_or(1);
         if (const auto tolerance_mm = section.number("tolerance_mm", kSmallest, kLargest))
             entry.options.subdivide.tolerance = 1e-3 * *tolerance_mm;
+        garment::SubdivideOptions &subdivide = entry.options.subdivide;
+        subdivide.fold_crease = section.number("fold_crease", 0, 9).value_or(0);
+        subdivide.fold_angle = section.number("fold_angle_deg", 0, 180).value_or(60) * kDegree;
+        entry.options.strict = section.flag("strict").value_or(false);
         entry.tolerance_px = section.number("tolerance_px", 1e-3, 1e3);
         entry.translate = section.vector("translate").value_or(glm::dvec3(0));
         entry.visible = section.flag("visible").value_or(true);
@@ -186,10 +190,13 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
 
 void SceneReader::read_cloth(const Section &section, MeshEntry &entry) {
     entry.options.metres_per_uv = section.number("metres_per_uv", kSmallest, kLargest);
-    entry.options.frames.default_grain =
-        section.number("default_grain_deg", -360, 360).value_or(0) * kDegree;
+    entry.options.subdivide.seam_crease = section.number("seam_crease", 0, 10).value_or(0);
+    garment::FrameOptions &frames = entry.options.frames;
+    frames.max_degenerate_area =
+        section.number("max_degenerate_area", 0, 1).value_or(frames.max_degenerate_area);
+    frames.default_grain = section.number("default_grain_deg", -360, 360).value_or(0) * kDegree;
     if (const auto invented = section.number("invented_grain_deg", -360, 360))
-        entry.options.frames.invented_grain = *invented * kDegree;
+        frames.invented_grain = *invented * kDegree;
     std::error_code code;
     if (!std::filesystem::is_regular_file(entry.mesh, code))
         section.has("grain"); // its keys cannot be judged

@@ -2,6 +2,7 @@
 /// \file
 /// A garment that moves: frames of one topology, such as morph targets or a simulator's OBJ files.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,19 @@
 #include "tsuya/garment/garment.h"
 
 namespace tsuya::garment {
+
+/// A garment and further shapes of its topology, in the order of the files.
+struct GarmentFrames {
+    MeshFile first{};
+    std::vector<std::vector<glm::dvec3>> further{}; ///< positions, in units of the files
+};
+
+/// Reads a mesh and the positions of further ones. \param with_morph_targets the targets of
+/// `first` come before the files. Throws Error as read_mesh, and naming the file and its counts
+/// where the faces are not those of the first.
+GarmentFrames read_frames(const std::filesystem::path &first,
+                          const std::vector<std::filesystem::path> &further,
+                          bool with_morph_targets = false);
 
 /// Repairs, seams, rates of tessellation, numbering and UVs are those of the first frame and are
 /// worked out once; seams that were joined stay joined.

@@ -51,6 +51,11 @@ struct SubdivideOptions {
     std::optional<double> tolerance{};
     std::optional<ViewTolerance> view{}; ///< with `tolerance`, the finer of the two
     double seam_crease = 0.0; ///< sharpness of edges where UVs part, 0 (smooth) to 10 (sharp)
+    /// Sharpness of pressed folds, 0 (smooth) to 9: edges inside of the mesh whose faces enclose
+    /// more than `fold_angle`. Each step halves the width that is rounded, beginning with the
+    /// faces'.
+    double fold_crease = 0.0;
+    double fold_angle = 1.0; ///< radians between the faces' normals, 0 to pi
 };
 
 /// Points of the limit surface. Arrays are as long as `position`; UV arrays may be empty.

@@ -26,12 +26,18 @@ inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_erro
 
 /// What is tried on and how it is shown.
 struct TryOn {
-    std::filesystem::path garment{};        ///< a mesh with the UV of its panels
+    std::filesystem::path garment{}; ///< a mesh with the UV of its panels
+    /// Meshes of the garment's faces with other positions: each gives pictures of its own, as does
+    /// the garment, which is frame 0. The camera stands still and sees all of them.
+    std::vector<std::filesystem::path> frames{};
+    bool morph_targets = false;             ///< of the garment (glTF): frames before `frames`
     std::filesystem::path body{};           ///< a mesh; empty: none
     std::filesystem::path fabric{};         ///< F.fabric.toml
     std::optional<double> tolerance{};      ///< metres; in place of `level`, see SubdivideOptions
     std::optional<double> tolerance_px{};   ///< pixels; in place of `level`, see ViewTolerance
     std::optional<double> invented_grain{}; ///< of a garment without UV, see FrameOptions
+    double max_degenerate_area = 0.05;      ///< of the garment, see FrameOptions
+    bool strict = false;                    ///< a warning about the garment is an Error
     std::string unit = "m";                 ///< of garment and body, see garment::metres_per
     int level = 1;                          ///< of subdivision, 0 to 8
     /// One render and one row of the sheet each, see parse_dye. Empty: the fabric's own dye.
@@ -76,7 +82,8 @@ struct TryOnResult {
 };
 
 /// Renders once for each dye, and writes into the output folder `DYE.exr` (light transport, with
-/// the picture `coverage` of the garment), `DYE-LAMP.png` for each lamp, and `sheet.png`. Where
+/// the picture `coverage` of the garment), `DYE-LAMP.png` for each lamp, and `sheet.png`. With
+/// frames, each dye and frame gives `DYE-0000.exr` and `DYE-LAMP-0000.png`, and no sheet. Where
 /// progress.stop becomes true, what is done is still written, without the sheet. Throws Error with
 /// nothing written for any wrong value of the job.
 TryOnResult run(const TryOn &job, const Progress &progress = {});
