@@ -256,8 +256,9 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
             mirrored += g.members.size() > 1 ? 1 : 0;
             if (g.members.size() > 1 && mean > kBright * peak_) {
                 const bool noise = std::abs(v->brdf_per_sr - mean) < 4 * v->sigma_per_sr;
-                bright_squares += noise ? 0 : d * d;
-                bright += 1;
+                // By value, or many views of a level ground would hide a highlight that is turned
+                bright_squares += noise ? 0 : mean * d * d;
+                bright += mean;
             }
         }
     }
@@ -272,7 +273,8 @@ void Bard::check_symmetry(const std::string &where) const {
     if (contradiction_ > kContradiction)
         throw Error({std::string("the views contradict the declared symmetry '") +
                          name_of(symmetry_) + "': mirror images differ by a factor of " +
-                         std::to_string(std::pow(10, contradiction_)) + " (root mean square)",
+                         std::to_string(std::pow(10, contradiction_)) +
+                         " (root mean square, weighted by value)",
                      where, "expected `# symmetry: half-turn` for twisted yarn, or `none`"});
 }
 

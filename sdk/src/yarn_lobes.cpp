@@ -37,6 +37,9 @@ constexpr double kPitShare = 0.42, kDeepestShare = 0.22, kDeepest = 0.3;
 // then around the best
 constexpr std::array<double, 6> kDepths = {0, 0.05, 0.1, 0.2, 0.3, 0.45};
 constexpr std::array<double, 2> kDepthSteps = {0.05, 0.025}; // a dozen views tell no finer
+// Of the even part that views from above tell, as much is kept: the bright oblique views would
+// trade it for slopes, and views on the side of the light go dark
+constexpr double kLeastEven = 0.5;
 constexpr std::size_t kLeastOblique = 4;
 constexpr double kOblique = 1e-9; // radians; below, light is from straight above
 constexpr double kLowest = 1e-4;  // cosine; a view on the horizon weighs nothing
@@ -87,8 +90,9 @@ class Fit {
     void add_oblique(const ReflectanceTable &table, const std::string &where);
     /// What the lobes of all unknowns have at the views: a row a view.
     Eigen::MatrixXd shapes(double roughness) const;
-    /// Returns the weighted relative error; sets the surfaces and the even part.
-    double solve(const Eigen::MatrixXd &shapes, YarnLobes &lobes) const;
+    /// Returns the weighted relative error; sets the surfaces and the even part, which is
+    /// `least_even` or more.
+    double solve(const Eigen::MatrixXd &shapes, YarnLobes &lobes, double least_even = 0) const;
     /// The same with the pits that follow from the shares of the systems.
     double solve_with_pits(const Eigen::MatrixXd &shapes, YarnLobes &lobes) const;
 
@@ -240,11 +244,12 @@ void Fit::store(const Eigen::VectorXd &x, YarnLobes &lobes) const {
     lobes.even = x[2 * count];
 }
 
-double Fit::solve(const Eigen::MatrixXd &shapes, YarnLobes &lobes) const {
+double Fit::solve(const Eigen::MatrixXd &shapes, YarnLobes &lobes, double least_even) const {
     const int count = unknowns_of_system();
     const Eigen::MatrixXd b = basis(shapes, lobes.pit);
     Eigen::MatrixXd a = b.transpose() * b;
-    Eigen::VectorXd linear = b.transpose() * target_;
+    const Eigen::VectorXd target = target_ - least_even * b.col(2 * count);
+    Eigen::VectorXd linear = b.transpose() * target;
     const double scale = std::max(b.topLeftCorner(above_, 2 * count).squaredNorm() / (2 * count),
                                   std::numeric_limits<double>::min());
     a += kBending * scale * bending();
@@ -253,7 +258,8 @@ double Fit::solve(const Eigen::MatrixXd &shapes, YarnLobes &lobes) const {
             kSteepness * std::sqrt(scale) * std::pow(slope(k % count) / (kPi / 4), kSteepnessPower);
     const Eigen::VectorXd x = least_positive(a, linear, 1 / (std::sqrt(scale) * count));
     store(x, lobes);
-    return (b * x - target_).norm();
+    lobes.even += least_even;
+    return (b * x - target).norm();
 }
 
 double Fit::solve_with_pits(const Eigen::MatrixXd &shapes, YarnLobes &lobes) const {
@@ -271,17 +277,18 @@ double Fit::solve_with_pits(const Eigen::MatrixXd &shapes, YarnLobes &lobes) con
 
 struct Solution {
     YarnLobes lobes{};
+    double least_even = 0;
     double error = std::numeric_limits<double>::infinity();
 };
 
-// The best of all pairs of depths at one roughness; of equals the first.
-Solution best_of_depths(const Fit &fit, const YarnLobes &start, const std::vector<double> &weft,
+// The best of all pairs of depths at the roughness of `start`; of equals the first.
+Solution best_of_depths(const Fit &fit, const Solution &start, const std::vector<double> &weft,
                         const std::vector<double> &warp) {
-    const Eigen::MatrixXd shapes = fit.shapes(start.roughness);
-    std::vector<Solution> tried(weft.size() * warp.size(), Solution{.lobes = start});
+    const Eigen::MatrixXd shapes = fit.shapes(start.lobes.roughness);
+    std::vector<Solution> tried(weft.size() * warp.size(), start);
     tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
         tried[i].lobes.pit = {weft[i / warp.size()], warp[i % warp.size()]};
-        tried[i].error = fit.solve(shapes, tried[i].lobes);
+        tried[i].error = fit.solve(shapes, tried[i].lobes, start.least_even);
     });
     return *std::min_element(tried.begin(), tried.end(), [](const Solution &a, const Solution &b) {
         return a.error < b.error;
@@ -323,17 +330,21 @@ YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double
     if (!(bard.peak() > 0))
         throw Error({"the views under light from straight above are all 0", where,
                      "expected a value above 0"});
+    const Fit above(bard, f0);
     Fit fit(bard, f0);
     fit.add_oblique(table, where);
     const std::vector<double> depths(kDepths.begin(), kDepths.end());
     Solution best;
-    for (const double roughness : kRoughness)
-        if (const Solution tried =
-                best_of_depths(fit, {.f0 = f0, .roughness = roughness}, depths, depths);
+    for (const double roughness : kRoughness) {
+        Solution start{.lobes = {.f0 = f0, .roughness = roughness}};
+        above.solve_with_pits(above.shapes(roughness), start.lobes);
+        start.least_even = kLeastEven * start.lobes.even;
+        if (const Solution tried = best_of_depths(fit, start, depths, depths);
             tried.error < best.error)
             best = tried;
+    }
     for (const double step : kDepthSteps)
-        best = best_of_depths(fit, best.lobes, around(best.lobes.pit[0], step),
+        best = best_of_depths(fit, best, around(best.lobes.pit[0], step),
                               around(best.lobes.pit[1], step));
     return best.lobes;
 }

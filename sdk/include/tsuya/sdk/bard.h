@@ -37,8 +37,8 @@ class Bard {
     /// Throws Error naming `where`: fewer than 6 views, all nearer than 20 degrees to the normal,
     /// or all in less than a third of the azimuths that the symmetry leaves; views that contradict
     /// the declared symmetry (mirror images above 1 % of the peak that differ by a factor of 1.6,
-    /// root mean square, beyond their standard errors); values that reflect more than twice what
-    /// they receive, which are no BRDF; as check_table.
+    /// root mean square weighted by value, beyond their standard errors); values that reflect more
+    /// than twice what they receive, which are no BRDF; as check_table.
     static Bard fit(const ReflectanceTable &table, const std::string &where);
     /// The same with a smoothness found before: no search.
     static Bard fit(const ReflectanceTable &table, const BardSmoothness &smoothness,
