@@ -11,10 +11,9 @@
 #include <string>
 #include <vector>
 
-#include <malloc.h>
-
 #include <benchmark/benchmark.h>
 
+#include "bench/allocated_bytes.h"
 #include "sdk/synthetic_table.h"
 #include "tsuya/sdk/model.h"
 
@@ -102,12 +101,6 @@ Plain without_tables(const YarnBrdf &model) {
     };
 }
 
-// Of the heap, in use.
-double used_bytes() {
-    const struct mallinfo2 info = mallinfo2();
-    return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
-}
-
 // Root mean square of the relative error of the tables, and the largest: what resolution and
 // precision cost. NaN where there are none: the CSV takes no columns that its first line has not.
 template <class Model> void report_table_error(benchmark::State &state, const Model &model) {
@@ -122,10 +115,10 @@ template <class Model> void report_table_error(benchmark::State &state, const Mo
         squares = largest = NAN;
     state.counters["error"] = std::sqrt(squares / kDirections);
     state.counters["error_max"] = largest;
-    const double before = used_bytes();
+    const std::size_t before = allocated_bytes();
     const Model copy = model;
     benchmark::DoNotOptimize(&copy);
-    state.counters["bytes"] = static_cast<double>(sizeof(Model)) + used_bytes() - before;
+    state.counters["bytes"] = static_cast<double>(sizeof(Model) + allocated_bytes() - before);
 }
 
 // The loops below make a call for every direction; `ns_a_call` is the time of one.
