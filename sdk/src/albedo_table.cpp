@@ -5,30 +5,17 @@
 
 #include <tbb/parallel_for.h>
 
+#include "azimuth.h"
+
 namespace tsuya {
 namespace {
 
 constexpr int kRows = 33;        // over sqrt(cos theta): 0.06 degrees at the horizon
 constexpr float kLowest = 1e-5f; // cosine that stands for the horizon itself
 
-// Azimuth without trigonometry: |x| + |y| = 1 walked from the weft axis, 1 a quarter, in [0, 4].
-float quarters(const glm::vec3 &d) {
-    const float sum = std::abs(d.x) + std::abs(d.y);
-    if (!(sum > 0))
-        return 0;
-    const float t = std::abs(d.y) / sum;
-    if (d.x >= 0)
-        return d.y >= 0 ? t : 4 - t;
-    return d.y >= 0 ? 2 - t : 2 + t;
-}
-
 glm::vec3 direction_of(float quarter, float root_cosine) {
-    const int whole = static_cast<int>(quarter);
-    const float t = quarter - static_cast<float>(whole);
-    const glm::vec2 axes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    const glm::vec2 p = glm::normalize((1 - t) * axes[whole % 4] + t * axes[(whole + 1) % 4]);
     const float z = std::max(root_cosine * root_cosine, kLowest);
-    return {p * std::sqrt(std::max(0.0f, 1 - z * z)), z};
+    return {azimuth_of(quarter) * std::sqrt(std::max(0.0f, 1 - z * z)), z};
 }
 
 // How many quarters differ from each other.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <tbb/parallel_for.h>
@@ -15,12 +16,9 @@ namespace {
 constexpr float kPi = 3.14159265f;
 constexpr int kQuarterNodes = 113; // along a half axis: 0.2 degrees of tilt at the pole
 constexpr float kFocus = 0.6f;     // of the nodes, which are denser where the lobes are narrow
-constexpr int kDensityCells = 96;
-constexpr int kAlbedoSamples = 8192;
+constexpr int kAlbedoSamples = 512;
 constexpr int kAlbedoColumns = 16; // of a quarter: at grazing the albedo changes fast with azimuth
 constexpr float kSmallest = 1e-20f;
-// Of the density, spread evenly over half vectors, and of the draws, over the hemisphere
-constexpr float kEvenShare = 0.02f, kLeastEvenDraws = 0.05f;
 
 // A component of the half vector to a place along an axis of the table, 0 to 1, and back.
 float place_of(float component) { return component * (1 + kFocus) / (component + kFocus); }
@@ -36,6 +34,31 @@ glm::vec2 even_of_systems(const YarnLobes &lobes) {
     return static_cast<float>(lobes.even) / kPi * glm::vec2(share, 1 - share);
 }
 
+// The lobes of one system: yarn_lobe with what does not depend on the half vector made once.
+struct Cylinders {
+    double cosine, sine, surface; // of the slope
+};
+std::vector<Cylinders> cylinders(const YarnLobes &lobes, std::size_t axis) {
+    std::vector<Cylinders> made;
+    for (int k = 0; k < kYarnSlopes; ++k)
+        if (const double s = lobes.surface[axis][static_cast<std::size_t>(k)]; s > 0)
+            made.push_back({std::cos(yarn_slope(k)), std::sin(yarn_slope(k)), s});
+    return made;
+}
+double facets_of(const std::vector<Cylinders> &system, double roughness, double along, double up) {
+    constexpr double kFarthest = 8; // in standard deviations: beyond, a lobe has 1e-14 of its peak
+    const double farthest = std::sin(std::min(kFarthest * roughness, 0.5 * std::numbers::pi));
+    double sum = 0;
+    for (const Cylinders &c : system) {
+        const double sine = along * c.cosine + up * c.sine;
+        if (std::abs(sine) > farthest)
+            continue;
+        const double angle = std::asin(std::clamp(sine, -1.0, 1.0)) / roughness;
+        sum += c.surface * std::exp(-0.5 * angle * angle);
+    }
+    return sum / (std::sqrt(2 * std::numbers::pi) * roughness * std::numbers::pi);
+}
+
 } // namespace
 
 YarnBrdf::YarnBrdf(const YarnLobes &lobes, Symmetry symmetry)
@@ -43,7 +66,7 @@ YarnBrdf::YarnBrdf(const YarnLobes &lobes, Symmetry symmetry)
                                                          static_cast<float>(lobes.pit[1])},
       even_per_sr_(even_of_systems(lobes)), mirrored_(symmetry != Symmetry::none) {
     tabulate_facets();
-    tabulate_density();
+    tabulate_draws();
     // Cylinders are mirrored across their axis, and slopes along it where the cloth is
     tabulate_albedos(mirrored_ ? Symmetry::orthotropic : Symmetry::none);
 }
@@ -59,6 +82,8 @@ void YarnBrdf::tabulate_facets() {
         const float c = component_of(static_cast<float>(k) / (kQuarterNodes - 1));
         return !mirrored_ && i < kQuarterNodes - 1 ? -c : c;
     };
+    const std::array<std::vector<Cylinders>, 2> systems = {cylinders(lobes_, 0),
+                                                           cylinders(lobes_, 1)};
     tbb::parallel_for(0, nodes_, [&](int j) {
         for (int i = 0; i < nodes_; ++i) {
             glm::dvec2 p(component(i), component(j));
@@ -66,14 +91,9 @@ void YarnBrdf::tabulate_facets() {
             if (const double r = glm::length(p); r > 1)
                 p /= r;
             const glm::dvec3 half(p, std::sqrt(std::max(0.0, 1 - glm::dot(p, p))));
-            glm::dvec2 sum(0, 0);
-            for (int axis = 0; axis < 2; ++axis)
-                for (int k = 0; k < kYarnSlopes; ++k)
-                    if (const double s = lobes_.surface[static_cast<std::size_t>(axis)]
-                                                       [static_cast<std::size_t>(k)];
-                        s > 0)
-                        sum[axis] += s * yarn_lobe(axis, yarn_slope(k), lobes_.roughness, half);
-            facets_[static_cast<std::size_t>(j * nodes_ + i)] = sum;
+            facets_[static_cast<std::size_t>(j * nodes_ + i)] =
+                glm::vec2(facets_of(systems[0], lobes_.roughness, half.x, half.z),
+                          facets_of(systems[1], lobes_.roughness, half.y, half.z));
         }
     });
 }
@@ -92,25 +112,18 @@ glm::vec2 YarnBrdf::facets(const glm::vec3 &half) const {
     return (1 - t) * ((1 - s) * row[0] + s * row[1]) + t * ((1 - s) * next[0] + s * next[1]);
 }
 
-// The disk of the horizontal part of H has the area element N.H dH: even cells draw D N.H.
-void YarnBrdf::tabulate_density() {
-    std::vector<double> mass;
-    double total = 0;
-    for (int j = 0; j < kDensityCells; ++j)
-        for (int i = 0; i < kDensityCells; ++i) {
-            const glm::vec2 u = (glm::vec2(i, j) + 0.5f) / static_cast<float>(kDensityCells);
-            const glm::vec2 d = facets({disk_of_square(u), 0});
-            mass.push_back(d.x + d.y);
-            total += mass.back();
-        }
-    for (double &m : mass)
-        m += kEvenShare * total / static_cast<double>(mass.size());
-    density_ = Distribution2D(mass, kDensityCells, kDensityCells);
-    // Draws follow the albedo of the parts, seen from above
-    const double facets = total * kPi / static_cast<double>(mass.size()) * lobes_.f0;
-    const double even = lobes_.even;
-    even_draws_ =
-        std::max(static_cast<float>(even / std::max(even + facets, 1e-30)), kLeastEvenDraws);
+void YarnBrdf::tabulate_draws() {
+    draws_ = HalfVectorSampler(
+        mirrored_,
+        [&](const glm::vec3 &half) {
+            const glm::vec2 d = facets(half);
+            return d.x + d.y;
+        },
+        [&](const glm::vec3 &fixed, const glm::vec3 &drawn) {
+            const float f_cos = evaluate_cos(drawn, fixed);
+            return std::max(f_cos - (even_per_sr_.x + even_per_sr_.y) * drawn.z, 0.0f);
+        },
+        static_cast<float>(lobes_.even));
 }
 
 void YarnBrdf::tabulate_albedos(Symmetry symmetry) {
@@ -140,13 +153,6 @@ glm::vec2 YarnBrdf::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
     return (even_per_sr_ * l.z + d * reach) * std::min(limit(l), limit(v));
 }
 
-// Of either direction for the other.
-float YarnBrdf::density(const YarnHalf &half, float drawn_cosine) const {
-    const float of_half =
-        density_.density(square_of_disk(glm::vec2(half.half))) / kPi * std::max(half.half.z, 0.0f);
-    return (1 - even_draws_) * of_half / (4 * half.cosine) + even_draws_ * drawn_cosine / kPi;
-}
-
 float YarnBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     return evaluate_cos(to_light, to_viewer) / std::max(to_light.z, kSmallest);
 }
@@ -164,13 +170,15 @@ WeighedLight YarnBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_view
         return {};
     const YarnHalf half = optics_.half(to_light, to_viewer);
     const glm::vec2 systems = times_light_cosine(half, to_light, to_viewer);
-    return {systems.x + systems.y, density(half, to_light.z), systems.x};
+    return {systems.x + systems.y, draws_.pdf(to_viewer, half.half, half.cosine, to_light.z),
+            systems.x};
 }
 
 float YarnBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     if (!(to_light.z > 0 && to_viewer.z > 0))
         return 0;
-    return density(optics_.half(to_light, to_viewer), to_light.z);
+    const YarnHalf half = optics_.half(to_light, to_viewer);
+    return draws_.pdf(to_viewer, half.half, half.cosine, to_light.z);
 }
 
 float YarnBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
@@ -183,23 +191,20 @@ std::optional<SampledDirection> YarnBrdf::sample(const glm::vec3 &to_viewer,
                                                  const glm::vec3 &u) const {
     if (!(to_viewer.z > 0))
         return std::nullopt;
-    glm::vec3 to_light;
-    if (u.z < even_draws_) {
-        const glm::vec2 p = disk_of_square({u.x, u.y});
-        to_light = {p, std::sqrt(std::max(1 - glm::dot(p, p), 0.0f))};
-    } else {
-        const glm::vec2 p = disk_of_square(density_.sample({u.x, u.y}).point);
-        const glm::vec3 half(p, std::sqrt(std::max(1 - glm::dot(p, p), 0.0f)));
-        const float v_h = glm::dot(to_viewer, half);
-        to_light = v_h > 0 ? 2 * v_h * half - to_viewer : glm::vec3(0);
-    }
-    if (!(to_light.z > 0))
+    const std::optional<glm::vec3> to_light = draws_.sample(to_viewer, u);
+    if (!to_light)
         return std::nullopt;
-    const WeighedLight light = weigh(to_light, to_viewer);
+    const WeighedLight light = weigh(*to_light, to_viewer);
     if (!(light.pdf_per_sr > 0))
         return std::nullopt;
-    return SampledDirection{to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr,
-                            light.weft / light.pdf_per_sr};
+    // In place: a copy would be read in other pieces than it was written in, and waited for
+    std::optional<SampledDirection> drawn(std::in_place);
+    const float over = 1 / light.pdf_per_sr;
+    drawn->direction = *to_light;
+    drawn->weight = light.f_cos * over;
+    drawn->pdf_per_sr = light.pdf_per_sr;
+    drawn->weft = light.weft * over;
+    return drawn;
 }
 
 std::optional<SampledDirection> YarnBrdf::sample_adjoint(const glm::vec3 &to_light,

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -281,7 +282,14 @@ struct Solution {
     double error = std::numeric_limits<double>::infinity();
 };
 
-// The best of all pairs of depths at the roughness of `start`; of equals the first.
+// Of equals the first.
+const Solution &least_error(std::span<const Solution> tried) {
+    return *std::min_element(tried.begin(), tried.end(), [](const Solution &a, const Solution &b) {
+        return a.error < b.error;
+    });
+}
+
+// The best of all pairs of depths at the roughness of `start`.
 Solution best_of_depths(const Fit &fit, const Solution &start, const std::vector<double> &weft,
                         const std::vector<double> &warp) {
     const Eigen::MatrixXd shapes = fit.shapes(start.lobes.roughness);
@@ -290,9 +298,7 @@ Solution best_of_depths(const Fit &fit, const Solution &start, const std::vector
         tried[i].lobes.pit = {weft[i / warp.size()], warp[i % warp.size()]};
         tried[i].error = fit.solve(shapes, tried[i].lobes, start.least_even);
     });
-    return *std::min_element(tried.begin(), tried.end(), [](const Solution &a, const Solution &b) {
-        return a.error < b.error;
-    });
+    return least_error(tried);
 }
 
 std::vector<double> around(double depth, double step) {
@@ -311,17 +317,15 @@ double yarn_lobe(int axis, double slope, double roughness, const glm::dvec3 &hal
 }
 
 YarnLobes fit_yarn_lobes(const Bard &bard, double f0) {
-    Solution best{.lobes = {.f0 = checked_f0(f0)}};
     if (!(bard.peak() > 0))
-        return best.lobes; // black: nothing is on any slope
+        return {.f0 = checked_f0(f0)}; // black: nothing is on any slope
     const Fit fit(bard, f0);
-    for (const double roughness : kRoughness) {
-        Solution tried{.lobes = {.f0 = f0, .roughness = roughness}};
-        tried.error = fit.solve_with_pits(fit.shapes(roughness), tried.lobes);
-        if (tried.error < best.error)
-            best = tried;
-    }
-    return best.lobes;
+    std::array<Solution, kRoughness.size()> tried;
+    tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
+        tried[i].lobes = {.f0 = f0, .roughness = kRoughness[i]};
+        tried[i].error = fit.solve_with_pits(fit.shapes(kRoughness[i]), tried[i].lobes);
+    });
+    return least_error(tried).lobes;
 }
 
 YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double f0,

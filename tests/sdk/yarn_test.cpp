@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
 #include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/error.h"
@@ -214,6 +215,29 @@ TEST(YarnBrdf, RefusesReflectancesOutOfRange) {
     for (const double f0 : {0.0, -0.1, 1.001, std::nan("")})
         EXPECT_THROW(YarnBrdf(bard, f0), Error);
     EXPECT_NO_THROW(YarnBrdf(YarnLobes{.f0 = 1}));
+}
+
+// Relative variance of the weights of what is drawn for a fixed direction.
+double variance(const YarnBrdf &brdf, const glm::vec3 &fixed) {
+    constexpr int kDraws = 20000;
+    Random random(21);
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kDraws; ++i)
+        if (const auto s = brdf.sample(fixed, random.point())) {
+            sum += s->weight;
+            squares += double(s->weight) * s->weight;
+        }
+    return squares * kDraws / (sum * sum) - 1;
+}
+
+TEST(YarnBrdf, DrawsWhatIsSeen) {
+    for (const Cloth &cloth : {satin_cloth(), leaning_cloth()}) {
+        const YarnBrdf brdf(bard_of(cloth), cloth.f0);
+        for (const double theta : {0.0, 20.0, 40.0, 60.0})
+            for (const double phi : {0.0, 33.0, 90.0, 250.0})
+                EXPECT_LT(variance(brdf, glm::vec3(direction(theta, phi))), 0.1)
+                    << theta << " " << phi;
+    }
 }
 
 } // namespace

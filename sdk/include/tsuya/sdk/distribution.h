@@ -28,7 +28,10 @@ class Distribution2D {
     Sample sample(glm::vec2 u) const;
     /// Density at a point of the unit square.
     float density(glm::vec2 point) const {
-        const std::size_t row = cell_of(point.y, rows_), column = cell_of(point.x, columns_);
+        return density_of(cell_of(point.y, rows_), cell_of(point.x, columns_));
+    }
+    /// The same of a cell.
+    float density_of(std::size_t row, std::size_t column) const {
         const float *const cdf = &column_cdf_[row * (columns_ + 1) + column];
         return row_density_[row] * (cdf[1] - cdf[0]);
     }

@@ -11,7 +11,7 @@
 
 #include "tsuya/sdk/albedo_table.h"
 #include "tsuya/sdk/bard.h"
-#include "tsuya/sdk/distribution.h"
+#include "tsuya/sdk/half_vector_sampler.h"
 #include "tsuya/sdk/sampled_direction.h"
 #include "tsuya/sdk/yarn_lobes.h"
 #include "tsuya/sdk/yarn_optics.h"
@@ -55,21 +55,19 @@ class YarnBrdf {
     glm::vec2 facets(const glm::vec3 &half) const;
     glm::vec2 times_light_cosine(const YarnHalf &half, const glm::vec3 &to_light,
                                  const glm::vec3 &to_viewer) const;
-    float density(const YarnHalf &half, float drawn_cosine) const;
     float limit(const glm::vec3 &direction) const;
     void tabulate_facets();
-    void tabulate_density();
+    void tabulate_draws();
     void tabulate_albedos(Symmetry symmetry);
 
     YarnLobes lobes_{};
     YarnOptics optics_{};
     std::array<float, 2> pit_{};
     glm::vec2 even_per_sr_{0}; ///< even part of weft and warp
-    float even_draws_ = 0;     ///< its share of the draws
     bool mirrored_ = true;
     int nodes_ = 0;
     std::vector<glm::vec2> facets_{}; ///< D of weft and warp over the horizontal part of H
-    Distribution2D density_{};        ///< proportional to D N.H, on the square of that disk
+    HalfVectorSampler draws_{};
     AlbedoTable unlimited_{}, albedo_{};
     float unlimited_albedo_ = 0;
     float limited_below_ = 0; ///< cosine from which on nothing is limited
