@@ -1,5 +1,7 @@
 #include "tsuya/garment/animation.h"
 
+#include <utility>
+
 #include "load_steps.h"
 #include "tsuya/sdk/error.h"
 
@@ -73,10 +75,10 @@ Surface AnimatedGarment::frame(const std::vector<glm::dvec3> &positions) {
     std::vector<glm::dvec3> metres = positions;
     for (glm::dvec3 &p : metres)
         p *= state_->metres_per_unit;
-    const LimitMesh limit =
+    LimitMesh limit =
         state_->steps.subdivider.evaluate(state_->steps.recipe.apply(std::move(metres)));
     FrameReport report;
-    return add_frames(limit, state_->steps.frames, report, state_->where);
+    return add_frames(std::move(limit), state_->steps.frames, report, state_->where);
 }
 
 } // namespace tsuya::garment

@@ -1,6 +1,7 @@
 #include "tsuya/garment/frames.h"
 
 #include <cmath>
+#include <utility>
 
 #include "tsuya/sdk/error.h"
 
@@ -17,9 +18,9 @@ bool into_plane(const glm::dvec3 &v, const glm::dvec3 &n, glm::vec3 &unit) {
     return true;
 }
 
-/// Grain angle of each panel. Throws for a name that no panel has.
-std::vector<double> panel_grain(const LimitMesh &mesh, const FrameOptions &options,
-                                const std::string &where) {
+/// Cosine and sine of the grain of each panel. Throws for a name that no panel has.
+std::vector<glm::dvec2> panel_grain(const LimitMesh &mesh, const FrameOptions &options,
+                                    const std::string &where) {
     std::vector<double> grain(std::max<std::size_t>(mesh.panel_name.size(), 1),
                               options.default_grain);
     std::vector<Problem> problems;
@@ -39,15 +40,18 @@ std::vector<double> panel_grain(const LimitMesh &mesh, const FrameOptions &optio
     }
     if (!problems.empty())
         throw Error(std::move(problems));
-    return grain;
+    std::vector<glm::dvec2> turn;
+    for (const double angle : grain)
+        turn.emplace_back(std::cos(angle), std::sin(angle));
+    return turn;
 }
 
 /// Warp along the vertical in the tangent plane, for meshes without UV.
-void invent_frames(Surface &s, double angle) {
-    s.warp.resize(s.position.size());
-    s.weft.resize(s.position.size());
-    for (std::size_t v = 0; v < s.position.size(); ++v) {
-        const glm::dvec3 n(s.normal[v]);
+void invent_frames(const LimitMesh &mesh, double angle, Surface &s) {
+    s.warp.resize(mesh.position.size());
+    s.weft.resize(mesh.position.size());
+    for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+        const glm::dvec3 n(mesh.normal[v]);
         glm::vec3 up;
         if (!into_plane({0, 1, 0}, n, up))
             into_plane({0, 0, -1}, n, up); // straight up or down: the back of the garment is "up"
@@ -59,10 +63,10 @@ void invent_frames(Surface &s, double angle) {
 }
 
 /// Frames from the derivatives; `valid` tells where that was possible.
-void frames_from_uv(const LimitMesh &mesh, const std::vector<double> &grain, Surface &s,
+void frames_from_uv(const LimitMesh &mesh, const std::vector<glm::dvec2> &grain, Surface &s,
                     std::vector<bool> &valid, FrameReport &report) {
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
-        const double c = std::cos(grain[mesh.panel[v]]), d = std::sin(grain[mesh.panel[v]]);
+        const double c = grain[mesh.panel[v]].x, d = grain[mesh.panel[v]].y;
         const glm::dvec3 n(mesh.normal[v]), p_u(mesh.dp_du[v]), p_v(mesh.dp_dv[v]);
         // The yarns' own coordinates are the UV turned by the grain.
         const bool mirrored = glm::dot(glm::cross(p_u, p_v), n) < 0.0;
@@ -119,7 +123,7 @@ void spread_frames(const LimitMesh &mesh, Surface &s, std::vector<bool> &valid) 
             for (std::size_t i = near.start[v]; i < near.start[v + 1]; ++i)
                 if (valid[near.vertex[i]])
                     sum += glm::dvec3(s.warp[near.vertex[i]]);
-            const glm::dvec3 n(s.normal[v]);
+            const glm::dvec3 n(mesh.normal[v]);
             if (into_plane(sum, n, s.warp[v])) {
                 s.weft[v] = glm::vec3(glm::cross(glm::dvec3(s.warp[v]), n));
                 reached.push_back(v);
@@ -129,7 +133,7 @@ void spread_frames(const LimitMesh &mesh, Surface &s, std::vector<bool> &valid) 
         }
         if (reached.empty()) {
             for (const std::uint32_t v : left) {
-                const glm::dvec3 n(s.normal[v]);
+                const glm::dvec3 n(mesh.normal[v]);
                 if (!into_plane({0, 1, 0}, n, s.warp[v]))
                     into_plane({0, 0, -1}, n, s.warp[v]);
                 s.weft[v] = glm::vec3(glm::cross(glm::dvec3(s.warp[v]), n));
@@ -156,7 +160,7 @@ double degenerate_share(const LimitMesh &mesh, const std::vector<bool> &valid) {
 
 void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface &s,
                      FrameReport &report, const std::string &where) {
-    const std::vector<double> grain = panel_grain(mesh, options, where);
+    const std::vector<glm::dvec2> grain = panel_grain(mesh, options, where);
     s.warp.resize(mesh.position.size());
     s.weft.resize(mesh.position.size());
     std::vector<bool> valid(mesh.position.size());
@@ -173,14 +177,14 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
                              "expected at most " +
                                  std::to_string(100.0 * options.max_degenerate_area) +
                                  " %, or a stated direction of the grain"});
-            invent_frames(s, *options.invented_grain);
+            invent_frames(mesh, *options.invented_grain, s);
             return;
         }
         spread_frames(mesh, s, valid);
     }
     s.uv.resize(mesh.uv.size());
     for (std::size_t v = 0; v < s.uv.size(); ++v) {
-        const double c = std::cos(grain[mesh.panel[v]]), d = std::sin(grain[mesh.panel[v]]);
+        const double c = grain[mesh.panel[v]].x, d = grain[mesh.panel[v]].y;
         const glm::dvec2 t = options.metres_per_uv * glm::dvec2(mesh.uv[v]);
         s.uv[v] = glm::vec2(c * t.x + d * t.y, c * t.y - d * t.x);
     }
@@ -188,18 +192,18 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
 
 } // namespace
 
-Surface add_frames(const LimitMesh &mesh, const FrameOptions &options, FrameReport &report,
+Surface add_frames(LimitMesh mesh, const FrameOptions &options, FrameReport &report,
                    const std::string &where) {
     Surface s;
-    s.position = mesh.position;
-    s.normal = mesh.normal;
-    s.triangle = mesh.triangle;
-    s.panel = mesh.triangle_panel;
-    s.panel_name = mesh.panel_name;
     if (!mesh.uv.empty())
         frames_of_cloth(mesh, options, s, report, where);
     else if (options.invented_grain)
-        invent_frames(s, *options.invented_grain);
+        invent_frames(mesh, *options.invented_grain, s);
+    s.position = std::move(mesh.position);
+    s.normal = std::move(mesh.normal);
+    s.triangle = std::move(mesh.triangle);
+    s.panel = std::move(mesh.triangle_panel);
+    s.panel_name = std::move(mesh.panel_name);
     return s;
 }
 

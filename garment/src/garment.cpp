@@ -140,14 +140,15 @@ LoadSteps load_steps(const PolygonMesh &mesh, const Options &options, const std:
         steps.frames.metres_per_uv = prepared.report.metres_per_uv;
         if (!options.want_frames)
             steps.frames.invented_grain.reset();
-        const LimitMesh limit = steps.subdivider.evaluate(progress);
+        LimitMesh limit = steps.subdivider.evaluate(progress);
+        const std::size_t repaired_normals = limit.repaired_normals;
         FrameReport frame_report;
         LoadedGarment &out = steps.garment;
-        out.surface = add_frames(limit, steps.frames, frame_report, where);
+        out.surface = add_frames(std::move(limit), steps.frames, frame_report, where);
         out.report = std::move(prepared.report);
         out.report.limit_points = out.surface.position.size();
         out.report.limit_triangles = out.surface.triangle.size();
-        out.report.repaired_normals = limit.repaired_normals;
+        out.report.repaired_normals = repaired_normals;
         out.report.repaired_frames = frame_report.repaired;
         out.report.repaired_area_share = frame_report.repaired_area_share;
         find_repairs(out.report);

@@ -1,5 +1,7 @@
 #include "limit_stencils.h"
 
+#include <mutex>
+
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -33,6 +35,7 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
     if (!surface.mesh().uv.empty())
         cloth_.resize(numbering.place().size());
     tbb::enumerable_thread_specific<Worker> workers;
+    std::mutex sharing;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, face_.size(), 64), [&](auto range) {
         Worker &worker = workers.local();
         for (std::size_t f = range.begin(); f != range.end(); ++f) {
@@ -47,13 +50,13 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
             worker.scratch.surface.GetControlPointIndices(control.data());
             face.control.assign(control.begin(), control.end());
             const std::size_t n = control.size();
-            face.weight.resize(3 * n * (first_[f + 1] - first_[f]));
+            Weights weight(3 * n * (first_[f + 1] - first_[f]));
             for (std::size_t i = 0; i < worker.vertices.size(); ++i) {
                 const std::uint32_t v = worker.vertices[i];
                 if (v < first_[f])
                     continue;
                 const glm::dvec2 at = pattern.coordinate[i];
-                double *const w = &face.weight[3 * n * (v - first_[f])];
+                double *const w = &weight[3 * n * (v - first_[f])];
                 worker.scratch.surface.EvaluateStencil(&at.x, w, w + n, w + 2 * n);
                 LimitSample sample = surface.sample(at, worker.scratch);
                 glm::dvec3 n_unused, u_unused, v_unused;
@@ -69,26 +72,34 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
                 if (worker.scratch.has_uv)
                     cloth_[v] = cloth_of(sample);
             }
+            const std::lock_guard lock(sharing);
+            face.weight = &*weights_.insert(std::move(weight)).first;
         }
     });
 }
 
 void LimitStencils::apply(const PolygonMesh &mesh, const glm::dvec3 &centre, LimitMesh &out) const {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, face_.size(), 64), [&](auto range) {
+        std::vector<glm::dvec3> points;
         for (std::size_t f = range.begin(); f != range.end(); ++f)
-            apply_face(f, mesh, centre, out);
+            apply_face(f, mesh, centre, points, out);
     });
 }
 
 void LimitStencils::apply_face(std::size_t f, const PolygonMesh &mesh, const glm::dvec3 &centre,
-                               LimitMesh &out) const {
+                               std::vector<glm::dvec3> &points, LimitMesh &out) const {
     const Face &face = face_[f];
     const std::size_t n = face.control.size();
-    const double *w = face.weight.data();
+    if (!face.weight)
+        return;
+    const double *w = face.weight->data();
+    points.clear();
+    for (const std::uint32_t control : face.control)
+        points.push_back(mesh.position[control] - centre);
     for (std::uint32_t v = first_[f]; v < first_[f + 1]; ++v, w += 3 * n) {
         LimitSample sample{.p = glm::dvec3(0.0), .p_u = glm::dvec3(0.0), .p_v = glm::dvec3(0.0)};
         for (std::size_t i = 0; i < n; ++i) {
-            const glm::dvec3 p = mesh.position[face.control[i]] - centre;
+            const glm::dvec3 &p = points[i];
             sample.p += w[i] * p;
             sample.p_u += w[n + i] * p;
             sample.p_v += w[2 * n + i] * p;

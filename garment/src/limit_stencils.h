@@ -2,6 +2,7 @@
 /// \file
 /// The limit surface as weighted sums of control points: fast for many frames of one topology.
 
+#include <set>
 #include <vector>
 
 #include "limit_numbering.h"
@@ -20,14 +21,18 @@ class LimitStencils {
     void apply(const PolygonMesh &mesh, const glm::dvec3 &centre, LimitMesh &out) const;
 
   private:
-    /// Weights of one face: for each of its vertices, three rows as long as `control`.
+    /// For each vertex of a face, three rows of weights as long as its control points. Faces that
+    /// are regular and cut alike share one, which keeps it in the cache.
+    using Weights = std::vector<double>;
     struct Face {
         std::vector<std::uint32_t> control;
-        std::vector<double> weight;
+        const Weights *weight = nullptr;
     };
+    /// \param points scratch
     void apply_face(std::size_t face, const PolygonMesh &mesh, const glm::dvec3 &centre,
-                    LimitMesh &out) const;
+                    std::vector<glm::dvec3> &points, LimitMesh &out) const;
 
+    std::set<Weights> weights_; ///< its elements do not move
     std::vector<Face> face_;
     std::vector<std::uint32_t> first_; ///< first vertex of each face
     std::vector<glm::dvec4> cloth_;    ///< per vertex: u and v by the face's coordinates, inverted

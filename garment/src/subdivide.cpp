@@ -103,8 +103,15 @@ struct Subdivider::State {
         if (!stencils) {
             stencils.emplace(surface, patterns, numbering);
             first = evaluate({});
+            for (std::vector<glm::vec3> *changing : {&first->normal, &first->dp_du, &first->dp_dv})
+                changing->clear();
+            first->position.clear();
         }
         LimitMesh out = *first;
+        out.position.resize(out.place.size());
+        out.normal.resize(out.place.size());
+        out.dp_du.resize(out.uv.size());
+        out.dp_dv.resize(out.uv.size());
         stencils->apply(mesh, surface.centre(), out);
         corners.apply(mesh.position, surface.centre(), out);
         close_seams(out);
@@ -153,7 +160,7 @@ struct Subdivider::State {
     LimitCorners corners;
     LimitMesh fixed; ///< what no frame changes
     std::optional<LimitStencils> stencils;
-    std::optional<LimitMesh> first;
+    std::optional<LimitMesh> first; ///< what no frame changes, with UVs
 };
 
 Subdivider::Subdivider(PolygonMesh mesh, const SubdivideOptions &options)

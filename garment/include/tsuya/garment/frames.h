@@ -40,7 +40,7 @@ struct FrameReport {
 /// vertices of the same panel.
 /// Throws Error naming `where` if the degenerate share is above its limit or `grain` names an
 /// unknown panel.
-Surface add_frames(const LimitMesh &mesh, const FrameOptions &options, FrameReport &report,
+Surface add_frames(LimitMesh mesh, const FrameOptions &options, FrameReport &report,
                    const std::string &where);
 
 } // namespace tsuya::garment
