@@ -2,10 +2,10 @@
 #include <limits>
 #include <unordered_map>
 
+#include "text_blocks.h"
 #include "text_cursor.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/sdk/error.h"
-#include "tsuya/sdk/file.h"
 
 namespace tsuya::garment {
 namespace {
@@ -30,18 +30,24 @@ struct ForwardIndex {
 
 class ObjParser {
   public:
-    ObjParser(std::string_view text, const std::string &name) : text_(text, name), name_(name) {}
+    explicit ObjParser(const std::string &name) : text_({}, name), name_(name) {}
 
-    PolygonMesh parse() {
-        for (; !text_.at_file_end(); text_.next_line())
+    /// Reads whole logical lines, those after the ones of the last call.
+    void parse_lines(std::string_view text) {
+        for (text_.continue_in(text); !text_.at_text_end(); text_.next_line())
             if (text_.skip_blanks())
                 parse_line();
+    }
+
+    /// The mesh, after the last lines.
+    PolygonMesh finish() {
         check_forward_indices();
         if (problems_.empty() && mesh_.face_count() == 0)
             problems_.push_back({"the file has no face", name_, "expected lines such as f 1 2 3"});
         if (!problems_.empty())
             throw Error(std::move(problems_));
         choose_panels();
+        share_equal_uvs(mesh_);
         return std::move(mesh_);
     }
 
@@ -239,13 +245,17 @@ class ObjParser {
 } // namespace
 
 PolygonMesh parse_obj(std::string_view text, const std::string &name) {
-    PolygonMesh mesh = ObjParser(text, name).parse();
-    share_equal_uvs(mesh);
-    return mesh;
+    ObjParser parser(name);
+    parser.parse_lines(text);
+    return parser.finish();
 }
 
 PolygonMesh read_obj(const std::filesystem::path &path) {
-    return parse_obj(read_file(path), path.string());
+    TextBlocks blocks(path);
+    ObjParser parser(path.string());
+    for (std::string_view text = blocks.next(); !text.empty(); text = blocks.next())
+        parser.parse_lines(text);
+    return parser.finish();
 }
 
 } // namespace tsuya::garment

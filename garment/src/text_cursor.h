@@ -17,7 +17,13 @@ class TextCursor {
         : at_(text.data()), end_(text.data() + text.size()), line_start_(at_),
           name_(std::move(name)) {}
 
-    bool at_file_end() const { return at_ == end_; }
+    bool at_text_end() const { return at_ == end_; }
+
+    /// Goes on in the text of the lines that follow; lines are counted on.
+    void continue_in(std::string_view text) {
+        at_ = line_start_ = text.data();
+        end_ = at_ + text.size();
+    }
 
     /// Skips blanks and continued line ends; false at the end of the line or at a comment.
     bool skip_blanks() {

@@ -3,6 +3,7 @@
 #include "test_meshes.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya::garment {
 namespace {
@@ -89,6 +90,57 @@ TEST(Obj, CollectsUpToTwentyProblems) {
     for (int i = 0; i < 50; ++i)
         many += "v x 0 0\n";
     EXPECT_EQ(places(many).size(), kMaxProblems);
+}
+
+/// What read_obj makes of a text in a file: where each problem is, or the mesh.
+std::vector<std::string> places_in_file(const std::string &text, PolygonMesh *mesh = nullptr) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "blocks.obj";
+    write_file(path, text);
+    std::vector<std::string> where;
+    try {
+        const PolygonMesh read = read_obj(path);
+        if (mesh)
+            *mesh = read;
+        where = {"no error"};
+    } catch (const Error &error) {
+        for (const Problem &p : error.problems())
+            where.push_back("m.obj" + p.where.substr(path.string().size()));
+    }
+    std::filesystem::remove(path);
+    return where;
+}
+
+TEST(Obj, ReadsLargeFilesInBlocksAsIfAtOnce) {
+    // Several blocks of a megabyte: lines of all lengths, many of them continued over line ends.
+    std::string text;
+    for (int i = 0; i < 60000; ++i) {
+        const std::string n = std::to_string(i);
+        text += i % 3 ? "v " + n + " 0 1\n" : "v " + n + " \\\r\n 0 \\\n 1 # comment \r\n";
+        text += "vt " + n + " 0.5\nf -1/-1 1/1 \\\n" + std::to_string(i / 2 + 1) + "/1\n";
+        if (i % 1000 == 0)
+            text += "g panel" + n + "\n# " + std::string(static_cast<std::size_t>(i), '-') + "\n";
+    }
+    ASSERT_GT(text.size(), 4u << 20);
+    for (const std::string &end : {std::string(), std::string("\n\n"), std::string("v 1 2 3"),
+                                   "v 1 2 3 " + std::string(3 << 20, '9')}) {
+        PolygonMesh read;
+        const PolygonMesh expected = parse_obj(text + end, "m.obj");
+        EXPECT_EQ(places_in_file(text + end, &read), places(text + end));
+        EXPECT_EQ(read.position, expected.position);
+        EXPECT_EQ(read.uv, expected.uv);
+        EXPECT_EQ(read.face_offset, expected.face_offset);
+        EXPECT_EQ(read.corner_position, expected.corner_position);
+        EXPECT_EQ(read.corner_uv, expected.corner_uv);
+        EXPECT_EQ(read.face_panel, expected.face_panel);
+        EXPECT_EQ(read.panel_name, expected.panel_name);
+    }
+    // One line of three megabytes, continued, and what is wrong behind it and in the last line.
+    text += "f";
+    for (int i = 0; i < 600000; ++i)
+        text += " 1 \\\n";
+    text += "x\nvt 1\nf 1 2\n f 1 2 3/70000";
+    EXPECT_EQ(places_in_file(text), places(text));
+    EXPECT_EQ(places(text).size(), 3u);
 }
 
 TEST(Obj, MissingFileIsAnError) {
