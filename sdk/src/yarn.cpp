@@ -51,12 +51,10 @@ double facets_of(const std::vector<Cylinders> &system, double roughness, double 
     double sum = 0;
     for (const Cylinders &c : system) {
         const double sine = along * c.cosine + up * c.sine;
-        if (std::abs(sine) > farthest)
-            continue;
-        const double angle = std::asin(std::clamp(sine, -1.0, 1.0)) / roughness;
-        sum += c.surface * std::exp(-0.5 * angle * angle);
+        if (std::abs(sine) <= farthest)
+            sum += c.surface * yarn_lobe(sine, roughness);
     }
-    return sum / (std::sqrt(2 * std::numbers::pi) * roughness * std::numbers::pi);
+    return sum;
 }
 
 } // namespace

@@ -310,8 +310,10 @@ std::vector<double> around(double depth, double step) {
 double yarn_slope(int k) { return (k - kMiddle) * kStep; }
 
 double yarn_lobe(int axis, double slope, double roughness, const glm::dvec3 &half) {
-    // Angle of the half vector with the plane of the cylinder's normals
-    const double sine = half[axis] * std::cos(slope) + half.z * std::sin(slope);
+    return yarn_lobe(half[axis] * std::cos(slope) + half.z * std::sin(slope), roughness);
+}
+
+double yarn_lobe(double sine, double roughness) {
     const double angle = std::asin(std::clamp(sine, -1.0, 1.0)) / roughness;
     return std::exp(-0.5 * angle * angle) / (std::sqrt(2 * kPi) * roughness * kPi);
 }

@@ -35,6 +35,8 @@ struct YarnLobes {
 /// Density of the filaments' normals at a unit direction, for the lobe of one slope with a surface
 /// of 1: a cylinder's normals spread evenly about its axis, blurred by the roughness.
 double yarn_lobe(int axis, double slope, double roughness, const glm::dvec3 &half);
+/// The same at the sine of the direction's angle with the plane of the cylinder's normals.
+double yarn_lobe(double sine, double roughness);
 
 /// Fits slopes, roughness and the even part to the views with light from straight above. The depth
 /// of pits is not seen from above: it follows from how little of the face a system has. Throws
