@@ -89,19 +89,10 @@ void HalfVectorBrdf::tabulate_density() {
 }
 
 void HalfVectorBrdf::tabulate_albedos(Symmetry symmetry) {
-    const auto albedo = [&](const glm::vec3 &to_viewer) {
+    albedo_.tabulate(symmetry, [&](const glm::vec3 &to_viewer) {
         return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
                            kAlbedoSamples);
-    };
-    // limited_below_ is 0 still: this is the albedo before the limit
-    unlimited_ = AlbedoTable(symmetry, albedo);
-    unlimited_albedo_ = unlimited_.maximum();
-    limited_below_ = unlimited_.cosine_above(1);
-    albedo_ = limited_below_ > 0 ? AlbedoTable(symmetry, albedo) : unlimited_;
-}
-
-float HalfVectorBrdf::limit(const glm::vec3 &direction) const {
-    return direction.z < limited_below_ ? 1 / std::max(1.0f, unlimited_.at(direction)) : 1.0f;
+    });
 }
 
 HalfVectorBrdf::Terms HalfVectorBrdf::terms(const glm::vec3 &to_light,
@@ -110,7 +101,7 @@ HalfVectorBrdf::Terms HalfVectorBrdf::terms(const glm::vec3 &to_light,
     const float v_h = 0.5f * half.length; // V.H = L.H
     const float d = facets_.at(direction_of_disk(half.horizontal));
     // The smaller of the two limits bounds the albedo of both directions and stays reciprocal
-    const float limited = std::min(limit(to_light), limit(to_viewer));
+    const float limited = std::min(albedo_.limit(to_light), albedo_.limit(to_viewer));
     const float density = density_.density(square_of_disk(half.horizontal)) / kPi * half.z;
     return {{d * fresnel(f0_, std::min(v_h, 1.0f)) * limited, 2 * half.z / v_h},
             density / (4 * v_h)};
@@ -165,7 +156,7 @@ std::optional<SampledDirection> HalfVectorBrdf::sample_adjoint(const glm::vec3 &
 }
 
 float HalfVectorBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? std::min(1.0f, albedo_.at(to_light)) : 0.0f;
+    return albedo_.at(to_light);
 }
 
 float HalfVectorBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {

@@ -125,19 +125,13 @@ void YarnBrdf::tabulate_draws() {
 }
 
 void YarnBrdf::tabulate_albedos(Symmetry symmetry) {
-    const auto albedo = [&](const glm::vec3 &to_viewer) {
-        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
-                           kAlbedoSamples);
-    };
-    // limited_below_ is 0 still: this is the albedo before the limit
-    unlimited_ = AlbedoTable(symmetry, albedo, kAlbedoColumns);
-    unlimited_albedo_ = unlimited_.maximum();
-    limited_below_ = unlimited_.cosine_above(1);
-    albedo_ = limited_below_ > 0 ? AlbedoTable(symmetry, albedo, kAlbedoColumns) : unlimited_;
-}
-
-float YarnBrdf::limit(const glm::vec3 &direction) const {
-    return direction.z < limited_below_ ? 1 / std::max(1.0f, unlimited_.at(direction)) : 1.0f;
+    albedo_.tabulate(
+        symmetry,
+        [&](const glm::vec3 &to_viewer) {
+            return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
+                               kAlbedoSamples);
+        },
+        kAlbedoColumns);
 }
 
 // rho of weft and warp times the light's cosine.
@@ -148,7 +142,7 @@ glm::vec2 YarnBrdf::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
     const glm::vec2 reach(optics_.reach<0>(pit_[0], half, l, v).times_cosine(open, ratio),
                           optics_.reach<1>(pit_[1], half, l, v).times_cosine(open, ratio));
     // The smaller of the two limits bounds the albedo of both directions and stays reciprocal
-    return (even_per_sr_ * l.z + d * reach) * std::min(limit(l), limit(v));
+    return (even_per_sr_ * l.z + d * reach) * std::min(albedo_.limit(l), albedo_.limit(v));
 }
 
 float YarnBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
@@ -210,9 +204,7 @@ std::optional<SampledDirection> YarnBrdf::sample_adjoint(const glm::vec3 &to_lig
     return sample(to_light, u);
 }
 
-float YarnBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? std::min(1.0f, albedo_.at(to_light)) : 0.0f;
-}
+float YarnBrdf::albedo_of_light(const glm::vec3 &to_light) const { return albedo_.at(to_light); }
 
 float YarnBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
     return albedo_of_light(to_viewer);

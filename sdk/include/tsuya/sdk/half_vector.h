@@ -7,10 +7,10 @@
 
 #include <glm/glm.hpp>
 
-#include "tsuya/sdk/albedo_table.h"
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/disk_table.h"
 #include "tsuya/sdk/distribution.h"
+#include "tsuya/sdk/limited_albedo.h"
 #include "tsuya/sdk/sampled_direction.h"
 
 namespace tsuya {
@@ -45,21 +45,18 @@ class HalfVectorBrdf {
     /// The value rests on facets that light from straight above does not show.
     static bool is_extrapolated(const glm::vec3 &to_light, const glm::vec3 &to_viewer);
     /// Largest albedo before it was limited.
-    float unlimited_albedo() const { return unlimited_albedo_; }
+    float unlimited_albedo() const { return albedo_.unlimited_maximum(); }
 
   private:
     struct Terms;
     Terms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float limit(const glm::vec3 &direction) const;
     void tabulate_density();
     void tabulate_albedos(Symmetry symmetry);
 
     float f0_ = 0.05f;
     DiskTable facets_{};       ///< D over the horizontal part of H
     Distribution2D density_{}; ///< proportional to D N.H, on the square of that disk
-    AlbedoTable unlimited_{}, albedo_{};
-    float unlimited_albedo_ = 0;
-    float limited_below_ = 0; ///< cosine from which on nothing is limited
+    LimitedAlbedo albedo_{};
 };
 
 } // namespace tsuya

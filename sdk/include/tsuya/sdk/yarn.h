@@ -9,9 +9,9 @@
 
 #include <glm/glm.hpp>
 
-#include "tsuya/sdk/albedo_table.h"
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/half_vector_sampler.h"
+#include "tsuya/sdk/limited_albedo.h"
 #include "tsuya/sdk/sampled_direction.h"
 #include "tsuya/sdk/yarn_lobes.h"
 #include "tsuya/sdk/yarn_optics.h"
@@ -49,13 +49,12 @@ class YarnBrdf {
 
     const YarnLobes &lobes() const { return lobes_; }
     /// Largest albedo before it was limited.
-    float unlimited_albedo() const { return unlimited_albedo_; }
+    float unlimited_albedo() const { return albedo_.unlimited_maximum(); }
 
   private:
     glm::vec2 facets(const glm::vec3 &half) const;
     glm::vec2 times_light_cosine(const YarnHalf &half, const glm::vec3 &to_light,
                                  const glm::vec3 &to_viewer) const;
-    float limit(const glm::vec3 &direction) const;
     void tabulate_facets();
     void tabulate_draws();
     void tabulate_albedos(Symmetry symmetry);
@@ -68,9 +67,7 @@ class YarnBrdf {
     int nodes_ = 0;
     std::vector<glm::vec2> facets_{}; ///< D of weft and warp over the horizontal part of H
     HalfVectorSampler draws_{};
-    AlbedoTable unlimited_{}, albedo_{};
-    float unlimited_albedo_ = 0;
-    float limited_below_ = 0; ///< cosine from which on nothing is limited
+    LimitedAlbedo albedo_{};
 };
 
 } // namespace tsuya
