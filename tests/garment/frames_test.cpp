@@ -1,6 +1,5 @@
 #include <random>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "test_meshes.h"
@@ -24,149 +23,6 @@ double angle_between(const glm::dvec3 &a, const glm::dvec3 &b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-struct Errors {
-    double position = 0.0, warp = 0.0;
-};
-
-/// Largest errors of the torus: distance to it, and warp angle where the grain is turned, so that
-/// the warp mixes both derivatives.
-Errors torus_errors(int n) {
-    const test::Torus torus;
-    const double grain = 30 * kDegree, c = std::cos(grain), d = std::sin(grain);
-    const Surface s = surface_of(torus.mesh(n), {.default_grain = grain});
-    Errors worst;
-    for (std::size_t v = 0; v < s.position.size(); ++v) {
-        const glm::dvec3 p = s.position[v];
-        const double ring = std::hypot(p.x, p.y) - torus.big;
-        worst.position = std::max(worst.position, std::abs(std::hypot(ring, p.z) - torus.tube));
-        // The surface's UV is turned by the grain: turn it back.
-        const glm::dvec2 t(c * s.uv[v].x - d * s.uv[v].y, d * s.uv[v].x + c * s.uv[v].y);
-        const glm::dvec3 warp = c * torus.d_v(t.x, t.y) - d * torus.d_u(t.x, t.y);
-        worst.warp = std::max(worst.warp, angle_between(warp, glm::dvec3(s.warp[v])));
-    }
-    return worst;
-}
-
-TEST(Frames, ErrorsOnATorusFallWithTheSquareOfTheSpacing) {
-    const Errors coarse = torus_errors(48), fine = torus_errors(96);
-    EXPECT_LT(fine.warp, 0.1 * kDegree);
-    EXPECT_GT(coarse.warp / fine.warp, 3.0);
-    EXPECT_LT(coarse.warp / fine.warp, 5.0);
-    EXPECT_GT(coarse.position / fine.position, 3.0);
-    EXPECT_LT(coarse.position / fine.position, 5.0);
-}
-
-double sphere_warp_error(int n) {
-    // A band from 30 to 150 degrees, its UV = longitude, latitude; away from the two hems.
-    const double step = 120 * kDegree / n;
-    const int around = 3 * n;
-    const auto at = [&](double u, double v) {
-        return glm::dvec3(std::cos(u) * std::cos(v), std::sin(u) * std::cos(v), std::sin(v));
-    };
-    const PolygonMesh mesh = test::grid(
-        around, n, true, false, glm::dvec2(step),
-        [&](int i, int j) { return at(step * i, step * j - 60 * kDegree); },
-        glm::dvec2(0, -60 * kDegree));
-    const double grain = 20 * kDegree, c = std::cos(grain), d = std::sin(grain);
-    const Surface s = surface_of(mesh, {.default_grain = grain});
-    double worst = 0.0;
-    for (std::size_t i = 0; i < s.position.size(); ++i) {
-        const double u = c * s.uv[i].x - d * s.uv[i].y, v = d * s.uv[i].x + c * s.uv[i].y;
-        if (std::abs(v) > 50 * kDegree)
-            continue;
-        const glm::dvec3 d_u(-std::sin(u) * std::cos(v), std::cos(u) * std::cos(v), 0);
-        const glm::dvec3 d_v(-std::cos(u) * std::sin(v), -std::sin(u) * std::sin(v), std::cos(v));
-        worst = std::max(worst, angle_between(c * d_v - d * d_u, glm::dvec3(s.warp[i])));
-        EXPECT_LT(angle_between(at(u, v), glm::dvec3(s.normal[i])), 0.5 * kDegree);
-    }
-    return worst;
-}
-
-TEST(Frames, ErrorsOnASphereFallWithTheSquareOfTheSpacing) {
-    const double coarse = sphere_warp_error(24), fine = sphere_warp_error(48);
-    EXPECT_LT(fine, 0.1 * kDegree);
-    EXPECT_GT(coarse / fine, 3.0);
-    EXPECT_LT(coarse / fine, 5.0);
-}
-
-/// A sheet over (u, v) in [-1, 1]^2 with known derivatives.
-struct Sheet {
-    glm::dvec3 (*at)(double u, double v);
-    glm::dvec3 (*d_u)(double u, double v);
-    glm::dvec3 (*d_v)(double u, double v);
-};
-
-/// Warp turns by up to 1 radian along the sheet.
-const Sheet kTwisted{
-    [](double u, double v) { return glm::dvec3(u, v * std::cos(u), v * std::sin(u)); },
-    [](double u, double v) { return glm::dvec3(1, -v * std::sin(u), v * std::cos(u)); },
-    [](double u, double) { return glm::dvec3(0, std::cos(u), std::sin(u)); }};
-/// Warp leans over weft by an angle that grows with v, on a wave.
-const Sheet kSheared{
-    [](double u, double v) { return glm::dvec3(u + 0.3 * v * v, v, 0.2 * std::sin(2 * u)); },
-    [](double u, double) { return glm::dvec3(1, 0, 0.4 * std::cos(2 * u)); },
-    [](double, double v) { return glm::dvec3(0.6 * v, 1, 0); }};
-
-struct SheetErrors {
-    double position = 0, warp = 0, shear = 0;
-};
-
-/// Largest errors away from the hems. \param turn about (1, 1, 1), radians
-SheetErrors sheet_errors(const Sheet &sheet, int n, double scale, double turn,
-                         const glm::dvec3 &shift) {
-    const glm::dmat3 rotation(glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(1, 1, 1)));
-    const auto moved = [&](const glm::dvec3 &p) { return scale * (rotation * p) + shift; };
-    const double step = 2.0 / n;
-    const Surface s = surface_of(test::grid(
-        n, n, false, false, glm::dvec2(step),
-        [&](int i, int j) { return moved(sheet.at(step * i - 1, step * j - 1)); }, glm::dvec2(-1)));
-    SheetErrors worst;
-    for (std::size_t i = 0; i < s.position.size(); ++i) {
-        const double u = s.uv[i].x, v = s.uv[i].y;
-        if (std::abs(u) > 0.8 || std::abs(v) > 0.8)
-            continue;
-        const glm::dvec3 d_u = rotation * sheet.d_u(u, v), d_v = rotation * sheet.d_v(u, v);
-        worst.position =
-            std::max(worst.position, glm::distance(s.position[i], moved(sheet.at(u, v))) / scale);
-        worst.warp = std::max(worst.warp, angle_between(d_v, glm::dvec3(s.warp[i])));
-        worst.shear = std::max(
-            worst.shear, std::abs(angle_between(d_u, d_v) -
-                                  angle_between(glm::dvec3(s.weft[i]), glm::dvec3(s.warp[i]))));
-    }
-    return worst;
-}
-
-TEST(Frames, ErrorsOnTwistedAndShearedSheetsFallWithTheSquareOfTheSpacing) {
-    for (const Sheet &sheet : {kTwisted, kSheared}) {
-        const SheetErrors coarse = sheet_errors(sheet, 40, 1, 0, glm::dvec3(0)),
-                          fine = sheet_errors(sheet, 80, 1, 0, glm::dvec3(0));
-        EXPECT_LT(fine.warp, 0.1 * kDegree); // 40 quads a metre
-        EXPECT_LT(fine.shear, 0.1 * kDegree);
-        for (const auto &[a, b] : {std::pair(coarse.position, fine.position),
-                                   {coarse.warp, fine.warp},
-                                   {coarse.shear, fine.shear}})
-            if (b > 1e-6) { // what is exact stays so, but for rounding of floats
-                EXPECT_GT(a / b, 3.0);
-                EXPECT_LT(a / b, 5.0);
-            }
-    }
-}
-
-TEST(Frames, ErrorsDoNotDependOnWhereASheetLiesNorOnItsSize) {
-    for (const Sheet &sheet : {kTwisted, kSheared}) {
-        const SheetErrors at_home = sheet_errors(sheet, 40, 1, 0, glm::dvec3(0));
-        for (const double scale : {1e-3, 1.0, 1e5})
-            for (const double shift : {0.0, 1e6}) {
-                const SheetErrors away = sheet_errors(sheet, 40, scale, 0.7, glm::dvec3(shift));
-                // Doubles hold a place 1e6 m away to 1e-10 m: of a sheet of a millimetre, 1e-7.
-                const double rounding = 1e-6 + 1e-15 * shift / scale;
-                EXPECT_NEAR(away.position, at_home.position, rounding);
-                EXPECT_NEAR(away.warp, at_home.warp, 100 * rounding);
-                EXPECT_NEAR(away.shear, at_home.shear, 100 * rounding);
-            }
-    }
-}
-
 TEST(Frames, InterpolatedFramesStayOrthonormal) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> any(0, 1);
@@ -188,7 +44,7 @@ TEST(Frames, InterpolatedFramesStayOrthonormal) {
 }
 
 TEST(Frames, PolesOfValenceTwoToAHundredAreFinite) {
-    for (const int valence : {2, 3, 4, 5, 7, 16, 64, 100})
+    for (int valence = 2; valence <= 100; ++valence)
         for (const int corners : {3, 4}) {
             // A fan about a vertex: triangles, or quads with an outer vertex each.
             PolygonMesh m;
@@ -209,7 +65,8 @@ TEST(Frames, PolesOfValenceTwoToAHundredAreFinite) {
             if (corners == 3 && valence == 2)
                 continue; // two triangles with the same corners: a duplicate face
             FrameReport report;
-            for (const int level : {1, 3}) {
+            // Finer ones take long.
+            for (const int level : {1, valence < 8 || valence % 25 == 0 ? 3 : 0}) {
                 const Surface s = add_frames(subdivide(m, {.level = level}),
                                              {.max_degenerate_area = 1.0}, report, "mesh");
                 check_surface(s, "mesh"); // finite, unit
