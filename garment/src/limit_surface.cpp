@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -23,7 +24,7 @@ constexpr int kMaxLevel = 8;
 /// level 2, 0.0015 at level 4 and 3e-5 at level 8; vertices have LimitCorners.
 constexpr int kApproximationLevel = 8;
 constexpr int kSharpApproximationLevel = 10; ///< the same where creases are
-constexpr double kInfinitelySharp = 10.0; // Sdc::Crease::SHARPNESS_INFINITE
+constexpr double kInfinitelySharp = 10.0;    // Sdc::Crease::SHARPNESS_INFINITE
 /// Sharper edges have a normal for each side, which only seams have room for.
 constexpr double kSharpestFold = 9.0;
 
@@ -87,8 +88,16 @@ Creases find_creases(const PolygonMesh &mesh, const SubdivideOptions &options) {
     Creases creases;
     if (options.seam_crease <= 0.0 && options.fold_crease <= 0.0)
         return creases;
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() != 2)
+    const EdgeTable edges(mesh);
+    // Bfr 3.5 reads out of bounds for creases between faces that share several edges: these stay
+    // smooth.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> shared;
+    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() == 2)
+            ++shared[std::minmax(uses[0].face, uses[1].face)];
+    });
+    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() != 2 || shared[std::minmax(uses[0].face, uses[1].face)] > 1)
             return;
         const EdgeUse &a = uses[0], &b = uses[1];
         double sharpness = 0.0;

@@ -7,7 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     using namespace tsuya::garment;
-    test::fuzz_load([&] {
+    test::fuzz_load({data, size}, [&] {
         return parse_gltf({reinterpret_cast<const char *>(data), size}, "fuzz.glb");
     });
     return 0;
