@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include <opensubdiv/far/topologyDescriptor.h>
 
+#include "creases.h"
 #include "edges.h"
-#include "fans.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -76,46 +75,6 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
             throw Error({"face " + std::to_string(f) + " has " + std::to_string(mesh.face_size(f)) +
                              " corners",
                          "mesh", "expected fewer than " + std::to_string(kMaxValence)});
-}
-
-struct Creases {
-    std::vector<Far::Index> ends; ///< two vertices an edge
-    std::vector<float> sharpness; ///< per edge
-};
-
-/// Edges where the UVs of the two sides part, and those that are folded by more than the angle.
-Creases find_creases(const PolygonMesh &mesh, const SubdivideOptions &options) {
-    Creases creases;
-    if (options.seam_crease <= 0.0 && options.fold_crease <= 0.0)
-        return creases;
-    const EdgeTable edges(mesh);
-    // Bfr 3.5 reads out of bounds for creases between faces that share several edges: these stay
-    // smooth.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> shared;
-    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() == 2)
-            ++shared[std::minmax(uses[0].face, uses[1].face)];
-    });
-    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() != 2 || shared[std::minmax(uses[0].face, uses[1].face)] > 1)
-            return;
-        const EdgeUse &a = uses[0], &b = uses[1];
-        double sharpness = 0.0;
-        if (uv_at(mesh, a, a.low) != uv_at(mesh, b, b.low) ||
-            uv_at(mesh, a, a.high) != uv_at(mesh, b, b.high))
-            sharpness = options.seam_crease;
-        double area_a = 0.0, area_b = 0.0;
-        const glm::dvec3 n_a = face_normal(mesh, a.face, area_a),
-                         n_b = face_normal(mesh, b.face, area_b);
-        if (area_a > 0.0 && area_b > 0.0 && glm::dot(n_a, n_b) < std::cos(options.fold_angle))
-            sharpness = std::max(sharpness, options.fold_crease);
-        if (sharpness <= 0.0)
-            return;
-        creases.ends.push_back(static_cast<Far::Index>(a.low));
-        creases.ends.push_back(static_cast<Far::Index>(a.high));
-        creases.sharpness.push_back(static_cast<float>(sharpness));
-    });
-    return creases;
 }
 
 Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,

@@ -35,7 +35,7 @@ inline double fuzz_size(const PolygonMesh &mesh) {
         high = glm::max(high, p);
     }
     const double size = glm::distance(low, high);
-    return size > 0 && size < 1e15 ? size : 1.0;
+    return size > 0 && size < 1e29 ? size : 1.0;
 }
 
 inline Options fuzz_options(const PolygonMesh &mesh, const FuzzWay &way) {
