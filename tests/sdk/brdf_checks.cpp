@@ -228,6 +228,9 @@ std::vector<glm::vec3> fixed_directions(double to_deg) {
 Check check_draws(const AnyBrdf &brdf, const DrawEffort &effort, std::uint64_t seed) {
     constexpr double kQuadrature = 0.005; // error allowed to the integrals
     constexpr double kSigmas = 5;
+    // One in a hundred right models fails by chance at the first try. What is wrong shows again,
+    // and more so with twice the draws.
+    constexpr std::uint64_t kOtherSeed = 1000003;
     const std::vector<glm::vec3> fixed = fixed_directions(effort.to_deg);
     const int evaluations = std::max(effort.evaluations, 3 * effort.samples);
     const double threshold = sidak_threshold(2 * static_cast<int>(fixed.size()));
@@ -240,8 +243,14 @@ Check check_draws(const AnyBrdf &brdf, const DrawEffort &effort, std::uint64_t s
         for (const glm::vec3 &d : fixed) {
             const Draws got = draw(brdf, adjoint, d, effort.samples, seed++, evaluations);
             check.worst = std::min(check.worst, got.p_value);
-            if (!(got.p_value >= threshold))
-                fail("p = " + std::to_string(got.p_value), d, adjoint);
+            if (!(got.p_value >= threshold)) {
+                const Draws again = draw(brdf, adjoint, d, 2 * effort.samples, seed + kOtherSeed,
+                                         std::max(evaluations, 6 * effort.samples));
+                if (!(again.p_value >= threshold))
+                    fail("p = " + std::to_string(got.p_value) + ", and " +
+                             std::to_string(again.p_value) + " with twice the draws",
+                         d, adjoint);
+            }
             const double total = got.pdf_integral + got.null_share;
             if (!(std::abs(total - 1) <= kQuadrature + kSigmas * got.null_sigma))
                 fail("pdf and null samples add to " + std::to_string(total), d, adjoint);
