@@ -208,14 +208,12 @@ Material resolve(const Fabric &fabric, const std::string &where) {
     check_spectrum(fabric.transmittance, 0, 1, where + ".transmittance");
     check_diffuse(fabric, where);
     check_model_name(fabric.model, where + ".model");
-    if (!has_data_of(fabric.model, fabric))
-        return material;
-    material.specular = make_brdf(fabric.model, fabric, where);
-    if (fabric.weft_tint || fabric.warp_tint)
-        if (!std::holds_alternative<YarnBrdf>(*material.specular))
-            throw Error({"the model '" + fabric.model + "' does not tell weft and warp apart",
-                         where + (fabric.weft_tint ? ".weft_tint" : ".warp_tint"),
-                         "expected specular_tint, or the model 'yarn'"});
+    if ((fabric.weft_tint || fabric.warp_tint) && fabric.model != "yarn")
+        throw Error({"the model '" + fabric.model + "' does not tell weft and warp apart",
+                     where + (fabric.weft_tint ? ".weft_tint" : ".warp_tint"),
+                     "expected specular_tint, or the model 'yarn'"});
+    if (has_data_of(fabric.model, fabric))
+        material.specular = make_brdf(fabric.model, fabric, where);
     return material;
 }
 

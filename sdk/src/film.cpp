@@ -141,6 +141,8 @@ std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings) {
         }
         h.value(f.f0.value_or(0));
         h.bytes(f.model.data(), f.model.size());
+        if (f.yarn)
+            h.value(*f.yarn);
         if (f.ggx)
             for (const double v : {f.ggx->alpha_weft, f.ggx->alpha_warp, f.ggx->f0,
                                    f.ggx->refractive_index.value_or(0)})

@@ -155,14 +155,17 @@ TEST(Promises, CheckpointOfAnotherSceneIsRefused) {
     std::atomic<bool> stop{true};
     render(folded_satin(70, 50), settings, {.stop = &stop});
     settings.resume = true;
-    Scene other = folded_satin(70, 50);
-    other.rectangles[0].radiance = 9;
-    try {
-        render(other, settings);
-        FAIL() << "accepted";
-    } catch (const Error &error) {
-        EXPECT_EQ(error.problems()[0].where, settings.checkpoint.string());
-    }
+    Scene brighter = folded_satin(70, 50), other_yarn = brighter, tinted = brighter;
+    brighter.rectangles[0].radiance = 9;
+    other_yarn.fabrics[0].yarn = YarnLobes{};
+    tinted.fabrics[0].weft_tint = Spectrum::constant(0.5);
+    for (const Scene &other : {brighter, other_yarn, tinted})
+        try {
+            render(other, settings);
+            FAIL() << "accepted";
+        } catch (const Error &error) {
+            EXPECT_EQ(error.problems()[0].where, settings.checkpoint.string());
+        }
     std::filesystem::remove(settings.checkpoint);
 }
 
