@@ -9,7 +9,7 @@ foreach(component IN LISTS components)
     install(EXPORT tsuya_${component}_targets NAMESPACE tsuya:: DESTINATION ${package_dir}
             FILE tsuya_${component}_targets.cmake COMPONENT ${component})
     # What a component stands on is what its library links, so the two cannot differ.
-    get_target_property(linked tsuya_${component} LINK_LIBRARIES)
+    get_target_property(linked tsuya_${component} INTERFACE_LINK_LIBRARIES)
     list(FILTER linked INCLUDE REGEX "^tsuya::")
     list(TRANSFORM linked REPLACE "^tsuya::" "")
     list(JOIN linked " " needs)

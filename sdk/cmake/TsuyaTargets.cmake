@@ -1,4 +1,4 @@
-# How every Tsuya target is made: one library a folder, one package component a library.
+# How every Tsuya target is made: one library a layer, one package component a library.
 
 option(TSUYA_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 option(TSUYA_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
@@ -22,18 +22,41 @@ endfunction()
 
 # tsuya_add_library(<component> HEADERS <public headers> SOURCES <sources>)
 # makes the target tsuya_<component> with the alias tsuya::<component>, installed as a package
-# component of that name. Headers are given relative to <folder>/include.
+# component of that name. Headers are given relative to <folder>/include; sources include what is
+# theirs alone relative to <folder>/src.
 function(tsuya_add_library component)
-    cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES" ${ARGN})
     set(target tsuya_${component})
-    add_library(${target} STATIC ${ARG_SOURCES})
+    add_library(${target} STATIC)
     add_library(tsuya::${component} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
     tsuya_target_defaults(${target})
-    list(TRANSFORM ARG_HEADERS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/include/")
-    target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${ARG_HEADERS})
+    tsuya_add_to_library(${component} ${ARGN})
     install(TARGETS ${target} EXPORT tsuya_${component}_targets COMPONENT ${component}
             FILE_SET HEADERS)
+    set_property(GLOBAL APPEND PROPERTY TSUYA_COMPONENTS ${component})
+endfunction()
+
+# tsuya_add_to_library(<component> HEADERS <public headers> SOURCES <sources>)
+# adds the headers and sources of one more folder.
+function(tsuya_add_to_library component)
+    cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES" ${ARGN})
+    list(TRANSFORM ARG_HEADERS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/include/")
+    list(TRANSFORM ARG_SOURCES PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+    target_sources(tsuya_${component}
+        PUBLIC FILE_SET HEADERS BASE_DIRS "${CMAKE_CURRENT_SOURCE_DIR}/include" FILES ${ARG_HEADERS}
+        PRIVATE ${ARG_SOURCES})
+    target_include_directories(tsuya_${component} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/src")
+endfunction()
+
+# tsuya_add_sum(<component> <components>...) makes a component of several others.
+function(tsuya_add_sum component)
+    set(target tsuya_${component})
+    add_library(${target} INTERFACE)
+    add_library(tsuya::${component} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+    list(TRANSFORM ARGN PREPEND "tsuya::")
+    target_link_libraries(${target} INTERFACE ${ARGN})
+    install(TARGETS ${target} EXPORT tsuya_${component}_targets COMPONENT ${component})
     set_property(GLOBAL APPEND PROPERTY TSUYA_COMPONENTS ${component})
 endfunction()
 

@@ -1,10 +1,19 @@
-#include "tsuya/sdk/spectrum.h"
+#include "tsuya/sdk/render.h"
 
 #include <cstdio>
 
 int main() {
-    const tsuya::Spectrum ramp{.wavelength_nm = {400, 700}, .value = {0, 1}};
-    const std::vector<float> channels = tsuya::project(ramp, {.count = 8});
-    std::printf("%zu channels, the last %.3f\n", channels.size(), channels.back());
-    return channels.size() == 8 && channels.front() < channels.back() ? 0 : 1;
+    tsuya::Surface sheet{.position = {{-1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {-1, 2, 0}},
+                         .normal = std::vector<glm::vec3>(4, {0, 0, 1}),
+                         .triangle = {{0, 1, 2}, {0, 2, 3}}};
+    tsuya::Scene scene{.surfaces = {sheet},
+                       .fabrics = {{.name = "white", .dye = tsuya::Spectrum::constant(0.8)}},
+                       .objects = {{.name = "sheet"}},
+                       .environment = tsuya::Environment{},
+                       .camera = {.width = 8, .height = 8}};
+    const tsuya::RenderResult result =
+        tsuya::render(scene, {.stop = {.samples_per_pixel = 4}, .channels = 8});
+    const float seen = result.image.pixel(0, 4, 4)[0];
+    std::printf("%.3f of the light\n", static_cast<double>(seen));
+    return seen > 0.79f && seen < 0.81f ? 0 : 1;
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "../lab/src/rough_surface.h"
-#include "../lab/src/view_tree.h"
+#include "rough_surface.h"
+#include "view_tree.h"
 #include "lab/filament_samples.h"
 #include "tsuya/lab/goniometer.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../lab/src/rough_surface.h"
+#include "rough_surface.h"
 #include "lab/filament_samples.h"
 #include "tsuya/lab/goniometer.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <regex>
 #include <set>
 
@@ -13,37 +12,65 @@ namespace {
 
 using Folders = std::set<std::string>;
 
-/// Folders that a folder may include, itself included.
-const std::map<std::string, Folders> kMayInclude{
-    {"sdk", {"sdk"}},
-    {"garment", {"garment", "sdk"}},
-    {"color", {"color", "sdk"}},
-    {"lab", {"lab", "color", "sdk"}},
-    {"samples", {"samples", "lab", "garment", "color", "sdk"}},
-    {"tests", {"tests", "samples", "lab", "garment", "color", "sdk"}},
+/// A folder of the layering, and the layers that it may include besides itself.
+struct Layer {
+    std::string folder;
+    Folders below;
+};
+
+/// From the ground up: a layer knows only layers that stand before it.
+const std::vector<Layer> kLayers{
+    {"sdk/values", {}},
+    {"sdk/reflectance", {"sdk/values"}},
+    {"sdk/render", {"sdk/values", "sdk/reflectance"}},
+    {"garment", {"sdk/values"}},
+    {"color", {"sdk/values"}},
+    {"lab/rig", {"sdk/values"}},
+    {"lab/weave", {"sdk/values", "color"}},
+    {"lab/goniometer", {"sdk/values", "color", "lab/weave"}},
+    {"lab/measure", {"sdk/values", "color", "lab/rig"}},
+    {"samples/scene",
+     {"sdk/values", "sdk/reflectance", "sdk/render", "garment", "color", "lab/rig", "lab/weave",
+      "lab/goniometer", "lab/measure"}},
+    {"samples",
+     {"sdk/values", "sdk/reflectance", "sdk/render", "garment", "color", "lab/rig", "lab/weave",
+      "lab/goniometer", "lab/measure", "samples/scene"}},
+    {"tests",
+     {"sdk/values", "sdk/reflectance", "sdk/render", "garment", "color", "lab/rig", "lab/weave",
+      "lab/goniometer", "lab/measure", "samples/scene", "samples"}},
+};
+
+/// Rooms of a layer's `src`, from the ground up: a room includes rooms that stand before it.
+const std::map<std::string, std::vector<std::string>> kRooms{
+    {"sdk/reflectance", {"views", "tables", "models", "fabric"}},
+    {"garment", {"mesh", "files", "repair", "limit"}},
 };
 
 struct Owned {
     std::string prefix; ///< how the include path starts
-    Folders folders;
+    Folders layers;
 };
 
 /// Headers of other projects. What `tests/x` tests, it may also use as a second opinion.
 const std::vector<Owned> kOwners{
-    {"embree3/", {"sdk", "lab"}},
-    {"embree4/", {"sdk", "lab"}},
-    {"tbb/", {"sdk", "garment", "lab"}},
-    {"oneapi/", {"sdk", "garment", "lab"}},
-    {"Eigen/", {"sdk"}},
-    {"toml++/", {"sdk", "lab", "samples"}},
+    {"embree3/", {"sdk/render", "lab/goniometer"}},
+    {"embree4/", {"sdk/render", "lab/goniometer"}},
+    {"tbb/",
+     {"sdk/values", "sdk/reflectance", "sdk/render", "garment", "color", "lab/weave",
+      "lab/goniometer"}},
+    {"oneapi/",
+     {"sdk/values", "sdk/reflectance", "sdk/render", "garment", "color", "lab/weave",
+      "lab/goniometer"}},
+    {"Eigen/", {"sdk/values", "sdk/reflectance"}},
+    {"toml++/", {"sdk/values"}},
     {"OpenColorIO/", {"color"}},
     {"OpenImageIO/", {"color"}},
     {"OpenMesh/", {"garment"}},
     {"opensubdiv/", {"garment"}},
     {"tiny_gltf.h", {"garment"}},
-    {"gpiod.hpp", {"lab"}},
-    {"gpiod.h", {"lab"}},
-    {"nlohmann/", {"lab", "samples"}},
+    {"gpiod.hpp", {"lab/rig"}},
+    {"gpiod.h", {"lab/rig"}},
+    {"nlohmann/", {"lab/rig", "samples"}},
     {"CLI/", {"samples"}},
     {"gtest/", {"tests"}},
     {"gmock/", {"tests"}},
@@ -58,21 +85,31 @@ const Folders kSystem{"spawn.h",       "unistd.h",   "fcntl.h",        "time.h",
 
 std::string first_part(const std::string &path) { return path.substr(0, path.find('/')); }
 
-/// The folder of `tsuya/<component>/name.h`.
-std::string folder_of_component(const std::string &component) {
-    return component == "scene" ? "samples" : component;
+/// The layer that a file belongs to; null outside of them.
+const Layer *layer_of(const std::string &path) {
+    const auto layer = std::find_if(kLayers.begin(), kLayers.end(), [&](const Layer &l) {
+        return path.starts_with(l.folder + "/");
+    });
+    return layer == kLayers.end() ? nullptr : &*layer;
 }
 
-/// The folders whose rights a file has: of `tests/lab/x.cpp`, tests and lab.
-Folders rights_of(const std::string &path, const std::string &folder) {
-    if (folder != "tests")
-        return {folder};
-    const std::string rest = path.substr(path.find('/') + 1);
-    return {folder, first_part(rest)};
+/// The path of a source below the `src` of its layer; empty for other files.
+std::string below_src(const std::string &path, const Layer &layer) {
+    const std::string src = layer.folder + "/src/";
+    return path.starts_with(src) ? path.substr(src.size()) : "";
 }
 
-bool meet(const Folders &a, const Folders &b) {
-    return std::any_of(a.begin(), a.end(), [&](const std::string &x) { return b.contains(x); });
+/// Position of a source's room in its layer; past the last for what stands above the rooms.
+std::size_t room_of(const std::string &path, const Layer &layer,
+                    const std::vector<std::string> &rooms) {
+    const std::string below = below_src(path, layer);
+    return static_cast<std::size_t>(std::find(rooms.begin(), rooms.end(), first_part(below)) -
+                                    rooms.begin());
+}
+
+/// `tests/lab/x.cpp` looks into `lab/rig` and the other layers of lab.
+bool tests_of(const std::string &path, const std::string &layer) {
+    return path.starts_with("tests/" + first_part(layer) + "/");
 }
 
 class Checker {
@@ -84,49 +121,62 @@ class Checker {
 
     /// What is wrong with an include; empty if nothing is.
     std::string problem(const std::string &path, const std::string &target, bool quoted) const {
-        const std::string folder = first_part(path);
+        const Layer &layer = *layer_of(path);
         if (target.starts_with("tsuya/"))
-            return arrow(folder, folder_of_component(first_part(target.substr(6))));
+            return arrow(layer, target);
         if (quoted)
-            return local(path, folder, target);
+            return local(path, layer, target);
         if (target.starts_with("glm/"))
             return "";
         if (target.find_first_of("/.") == std::string::npos)
             return ""; // the standard library
-        return third_party(path, folder, target);
+        return third_party(path, layer, target);
     }
 
   private:
-    static std::string arrow(const std::string &from, const std::string &to) {
-        if (!kMayInclude.contains(to))
-            return "there is no folder '" + to + "'";
-        return kMayInclude.at(from).contains(to) ? "" : from + " may not include " + to;
+    std::string arrow(const Layer &from, const std::string &target) const {
+        const auto owner = std::find_if(kLayers.begin(), kLayers.end(), [&](const Layer &l) {
+            return paths_.contains(l.folder + "/include/" + target);
+        });
+        if (owner == kLayers.end())
+            return "no layer has this header";
+        const bool known = owner->folder == from.folder || from.below.contains(owner->folder);
+        return known ? "" : from.folder + " may not include " + owner->folder;
     }
 
-    std::string local(const std::string &path, const std::string &folder,
+    std::string local(const std::string &path, const Layer &layer,
                       const std::string &target) const {
-        const std::filesystem::path own = std::filesystem::path(path).parent_path();
-        for (const std::filesystem::path &base :
-             {own, std::filesystem::path(folder), std::filesystem::path(folder) / "src"}) {
+        std::vector<std::filesystem::path> bases{std::filesystem::path(path).parent_path(),
+                                                 layer.folder,
+                                                 std::filesystem::path(layer.folder) / "src"};
+        for (const Layer &other : kLayers)
+            if (tests_of(path, other.folder))
+                bases.push_back(std::filesystem::path(other.folder) / "src");
+        for (const std::filesystem::path &base : bases) {
             const std::string found = (base / target).lexically_normal().generic_string();
-            if (!paths_.contains(found))
-                continue;
-            if (first_part(found) != folder && !tests_of(path, found))
-                return folder + " reaches into " + first_part(found) + " by a relative path";
-            if (path.find("/include/") != std::string::npos)
-                return "a public header includes a private one";
-            return "";
+            if (paths_.contains(found))
+                return inside(path, layer, found);
         }
-        return "no such file in " + folder + "; other projects' headers go in <>";
+        return "no such file in " + layer.folder + "; other projects' headers go in <>";
     }
 
-    /// A test of a folder may look inside it: tests/sdk/x.cpp into sdk/src.
-    static bool tests_of(const std::string &path, const std::string &found) {
-        return path.starts_with("tests/" + first_part(found) + "/") &&
-               found.starts_with(first_part(found) + "/src/");
+    /// What is wrong with including a file that is no public header.
+    static std::string inside(const std::string &path, const Layer &layer,
+                              const std::string &found) {
+        const Layer *const owner = layer_of(found);
+        if (!owner || (owner->folder != layer.folder &&
+                       !(tests_of(path, owner->folder) && !below_src(found, *owner).empty())))
+            return layer.folder + " reaches into " + first_part(found) + " by a relative path";
+        if (path.find("/include/") != std::string::npos)
+            return "a public header includes a private one";
+        const auto rooms = kRooms.find(layer.folder);
+        if (rooms != kRooms.end() &&
+            room_of(found, layer, rooms->second) > room_of(path, layer, rooms->second))
+            return "the room of " + found + " stands above";
+        return "";
     }
 
-    static std::string third_party(const std::string &path, const std::string &folder,
+    static std::string third_party(const std::string &path, const Layer &layer,
                                    const std::string &target) {
         const bool is_public = path.find("/include/") != std::string::npos;
         if (is_public)
@@ -137,9 +187,12 @@ class Checker {
             return target.starts_with(o.prefix);
         });
         if (owned == kOwners.end())
-            return "no folder owns this header";
-        return meet(owned->folders, rights_of(path, folder)) ? ""
-                                                             : folder + " does not own this header";
+            return "no layer owns this header";
+        const bool may =
+            std::any_of(owned->layers.begin(), owned->layers.end(), [&](const std::string &l) {
+                return l == layer.folder || tests_of(path, l);
+            });
+        return may ? "" : layer.folder + " does not own this header";
     }
 
     std::set<std::string> paths_;
@@ -152,7 +205,7 @@ Findings check_includes(const std::vector<TextFile> &files) {
     const Checker checker(files);
     Findings findings;
     for (const TextFile &file : files) {
-        if (!is_cpp(file.path) || !kMayInclude.contains(first_part(file.path)))
+        if (!is_cpp(file.path) || !layer_of(file.path))
             continue;
         const std::vector<std::string> lines = lines_of(split_cpp(file.text).code);
         for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -51,60 +51,89 @@ TEST(Repository, NamesNoMachine) {
     EXPECT_TRUE(findings.empty()) << as_text(findings);
 }
 
+/// A source of one include, beside headers for it to find.
+Findings include_findings(const std::string &path, const std::string &line) {
+    std::vector<TextFile> files = one_line(path, line);
+    for (const char *const header :
+         {"sdk/values/include/tsuya/sdk/error.h", "sdk/reflectance/include/tsuya/sdk/brdf.h",
+          "sdk/render/include/tsuya/sdk/scene.h", "garment/include/tsuya/garment/mesh.h",
+          "color/include/tsuya/color/lamp.h", "lab/rig/include/tsuya/lab/line.h",
+          "lab/weave/include/tsuya/lab/weave.h", "lab/goniometer/include/tsuya/lab/goniometer.h",
+          "samples/scene/include/tsuya/scene/tryon.h", "garment/src/mesh/edges.h",
+          "garment/src/repair/fans.h"})
+        files.push_back({header, ""});
+    return check_includes(files);
+}
+
 // Each of these must be flagged; a rule that lets one through checks nothing.
 TEST(Includes, BadArrowsAreFlagged) {
     const std::vector<std::pair<std::string, std::string>> bad{
-        {"sdk/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
-        {"sdk/src/a.cpp", "#  include <tsuya/garment/mesh.h>"},
-        {"sdk/include/tsuya/sdk/a.h", "#include \"tsuya/scene/scene.h\""},
+        {"sdk/values/src/a.cpp", "#include \"tsuya/sdk/brdf.h\""},
+        {"sdk/values/include/tsuya/sdk/a.h", "#include \"tsuya/sdk/scene.h\""},
+        {"sdk/reflectance/src/models/a.cpp", "#include \"tsuya/sdk/scene.h\""},
+        {"sdk/render/src/a.cpp", "#  include <tsuya/garment/mesh.h>"},
+        {"sdk/render/include/tsuya/sdk/a.h", "#include \"tsuya/scene/tryon.h\""},
         {"garment/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
+        {"garment/src/a.cpp", "#include \"tsuya/sdk/scene.h\""},
+        {"garment/src/mesh/a.cpp", "#include \"repair/fans.h\""},
         {"color/src/a.cpp", "#include \"tsuya/garment/mesh.h\""},
-        {"lab/src/a.cpp", "#include \"tsuya/garment/mesh.h\""},
-        {"lab/src/a.cpp", "#include \"tsuya/samples/a.h\""},
+        {"color/src/a.cpp", "#include \"tsuya/sdk/brdf.h\""},
+        {"lab/rig/src/a.cpp", "#include \"tsuya/lab/weave.h\""},
+        {"lab/rig/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
+        {"lab/weave/src/a.cpp", "#include \"tsuya/lab/goniometer.h\""},
+        {"lab/weave/src/a.cpp", "#include \"tsuya/samples/a.h\""},
+        {"samples/scene/src/a.cpp", "#include \"../tsuya/command.h\""},
         {"samples/tsuya/a.cpp", "#include \"tests/a.h\""},
-        {"lab/src/a.cpp", "#include \"tsuya/tests/a.h\""},
         {"color/src/a.cpp", "#include \"tsuya/colour/a.h\""},
         {"color/src/a.cpp", "#include <embree3/rtcore.h>"},
-        {"sdk/include/tsuya/sdk/a.h", "#include <embree3/rtcore.h>"},
-        {"sdk/include/tsuya/sdk/a.h", "#include <unistd.h>"},
+        {"lab/rig/src/a.cpp", "#include <tbb/parallel_for.h>"},
+        {"sdk/values/src/a.cpp", "#include <embree3/rtcore.h>"},
+        {"sdk/render/include/tsuya/sdk/a.h", "#include <embree3/rtcore.h>"},
+        {"sdk/values/include/tsuya/sdk/a.h", "#include <unistd.h>"},
         {"samples/scene/include/tsuya/scene/a.h", "#include <toml++/toml.h>"},
         {"tests/color/a_test.cpp", "#include <opensubdiv/far/patch.h>"},
-        {"sdk/src/a.cpp", "#include <gtest/gtest.h>"},
-        {"sdk/src/a.cpp", "#include <boost/optional.hpp>"},
-        {"sdk/src/a.cpp", "#include \"missing.h\""},
+        {"sdk/values/src/a.cpp", "#include <gtest/gtest.h>"},
+        {"sdk/values/src/a.cpp", "#include <boost/optional.hpp>"},
+        {"sdk/values/src/a.cpp", "#include \"missing.h\""},
     };
     for (const auto &[path, line] : bad) {
-        const Findings findings = check_includes(one_line(path, line));
+        const Findings findings = include_findings(path, line);
         ASSERT_EQ(findings.size(), 1u) << path << ' ' << line;
         EXPECT_TRUE(findings[0].starts_with(path + ":2: ")) << findings[0];
     }
 }
 
 TEST(Includes, PrivateHeadersStayPrivate) {
-    const TextFile own{"sdk/src/a.h", ""};
-    EXPECT_TRUE(check_includes({own, {"sdk/src/b.cpp", "#include \"a.h\"\n"}}).empty());
-    EXPECT_EQ(check_includes({own, {"sdk/include/tsuya/sdk/b.h", "#include \"a.h\"\n"}}).size(),
-              1u);
-    EXPECT_EQ(check_includes({own, {"color/src/b.cpp", "#include \"../../sdk/src/a.h\"\n"}}).size(),
-              1u);
-    const std::string reach = "#include \"../../sdk/src/a.h\"\n";
-    EXPECT_EQ(check_includes({own, {"tests/color/b.cpp", reach}}).size(), 1u);
-    EXPECT_TRUE(check_includes({own, {"tests/sdk/b.cpp", reach}}).empty());
+    const TextFile own{"sdk/values/src/a.h", ""};
+    const auto count = [&](const std::string &path, const std::string &target) {
+        return check_includes({own, {path, "#include \"" + target + "\"\n"}}).size();
+    };
+    EXPECT_EQ(count("sdk/values/src/b.cpp", "a.h"), 0u);
+    EXPECT_EQ(count("sdk/values/include/tsuya/sdk/b.h", "a.h"), 1u);
+    EXPECT_EQ(count("color/src/b.cpp", "../../sdk/values/src/a.h"), 1u);
+    EXPECT_EQ(count("sdk/render/src/b.cpp", "../../values/src/a.h"), 1u);
+    EXPECT_EQ(count("tests/color/b.cpp", "../../sdk/values/src/a.h"), 1u);
+    EXPECT_EQ(count("tests/color/b.cpp", "a.h"), 1u);
+    EXPECT_EQ(count("tests/sdk/b.cpp", "a.h"), 0u);
 }
 
 TEST(Includes, GoodOnesPass) {
     const std::vector<std::pair<std::string, std::string>> good{
-        {"lab/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
-        {"samples/tsuya/a.cpp", "#include \"tsuya/scene/scene.h\""},
+        {"lab/weave/src/a.cpp", "#include \"tsuya/color/lamp.h\""},
+        {"lab/goniometer/src/a.cpp", "#include \"tsuya/lab/weave.h\""},
+        {"sdk/render/src/a.cpp", "#include \"tsuya/sdk/brdf.h\""},
+        {"garment/src/repair/a.cpp", "#include \"mesh/edges.h\""},
+        {"garment/src/a.cpp", "#include \"repair/fans.h\""},
+        {"samples/tsuya/a.cpp", "#include \"tsuya/scene/tryon.h\""},
         {"samples/tsuya/a.cpp", "#include <CLI/CLI.hpp>"},
-        {"sdk/include/tsuya/sdk/a.h", "#include <glm/vec3.hpp>"},
-        {"sdk/include/tsuya/sdk/a.h", "#include <string_view>"},
+        {"sdk/values/include/tsuya/sdk/a.h", "#include <glm/vec3.hpp>"},
+        {"sdk/values/include/tsuya/sdk/a.h", "#include <string_view>"},
         {"tests/color/a_test.cpp", "#include <OpenImageIO/imageio.h>"},
-        {"sdk/src/a.cpp", "// #include \"tsuya/color/lamp.h\""},
-        {"sdk/src/a.cpp", "auto s = R\"(\n#include \"tsuya/color/lamp.h\"\n)\";"},
+        {"sdk/values/src/a.cpp", "// #include \"tsuya/color/lamp.h\""},
+        {"sdk/values/src/a.cpp", "auto s = R\"(\n#include \"tsuya/color/lamp.h\"\n)\";"},
     };
     for (const auto &[path, line] : good) {
-        const Findings findings = check_includes(one_line(path, line));
+        const Findings findings = include_findings(path, line);
         EXPECT_TRUE(findings.empty()) << as_text(findings);
     }
 }

@@ -12,11 +12,11 @@
 
 #include <gtest/gtest.h>
 
-#include "../sdk/src/takeda_kernel.h"
+#include "models/takeda_kernel.h"
 #include "sdk/brdf_checks.h"
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
-#include "tsuya/sdk/great_circle.h"
+#include "tsuya/sdk/detail/great_circle.h"
 #include "tsuya/sdk/model.h"
 
 namespace tsuya::test {

@@ -1,4 +1,4 @@
-#include "tsuya/sdk/great_circle.h"
+#include "tsuya/sdk/detail/great_circle.h"
 
 #include <algorithm>
 #include <cmath>

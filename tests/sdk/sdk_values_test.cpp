@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include "../sdk/src/disk.h"
+#include "tables/disk.h"
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
-#include "tsuya/sdk/albedo_table.h"
-#include "tsuya/sdk/disk_table.h"
-#include "tsuya/sdk/distribution.h"
+#include "tsuya/sdk/detail/albedo_table.h"
+#include "tsuya/sdk/detail/disk_table.h"
+#include "tsuya/sdk/detail/distribution.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/frame.h"
 #include "tsuya/sdk/spectrum.h"

@@ -11,8 +11,8 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/sdk/camera.h"
 #include "tsuya/sdk/progress.h"
-#include "tsuya/sdk/scene.h"
 
 namespace tsuya::garment {
 

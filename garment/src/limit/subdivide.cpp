@@ -1,0 +1,192 @@
+#include "tsuya/garment/subdivide.h"
+
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "repair/fans.h"
+#include "limit/limit_corners.h"
+#include "limit/limit_numbering.h"
+#include "limit/limit_stencils.h"
+#include "limit/limit_surface.h"
+#include "limit/tessellation_rates.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::garment {
+namespace {
+
+constexpr double kInfinitelySharp = 10.0; // Sdc::Crease::SHARPNESS_INFINITE
+
+TessellationRates choose_rates(const LimitSurface &surface, const SubdivideOptions &options) {
+    if (options.tolerance || options.view)
+        return adaptive_rates(surface, options);
+    return uniform_rates(surface, 1 << options.level);
+}
+
+/// What a thread needs.
+struct Worker {
+    LimitSurface::Scratch scratch;
+    std::vector<std::uint32_t> vertices;
+    std::size_t repaired_normals = 0;
+};
+
+/// Normal of the control face; z where that has no area.
+glm::dvec3 any_normal(const PolygonMesh &mesh, std::size_t face) {
+    double area = 0.0;
+    const glm::dvec3 n = face_normal(mesh, face, area);
+    return area > 0.0 ? n : glm::dvec3(0, 0, 1);
+}
+
+} // namespace
+
+struct Subdivider::State {
+    State(PolygonMesh given, const SubdivideOptions &options)
+        : mesh(std::move(given)), crease(options.seam_crease), surface(mesh, options),
+          rates(choose_rates(surface, options)), patterns(surface, rates),
+          numbering(surface, patterns, rates), corners(surface, numbering) {
+        const std::size_t vertices = numbering.place().size();
+        fixed.place = numbering.place();
+        fixed.panel_name = mesh.panel_name;
+        fixed.panel.resize(vertices);
+        if (!mesh.uv.empty())
+            fixed.uv.resize(vertices);
+        std::vector<std::uint32_t> numbers;
+        for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+            const FacePattern &pattern = patterns.of(f);
+            numbering.face_vertices(f, pattern.interior_count, numbers);
+            for (const glm::uvec3 &t : pattern.triangle) {
+                fixed.triangle.emplace_back(numbers[t.x], numbers[t.y], numbers[t.z]);
+                fixed.triangle_panel.push_back(mesh.face_panel[f]);
+            }
+        }
+    }
+
+    /// Evaluates the vertices that were numbered with a face.
+    void evaluate_face(std::size_t face, LimitMesh &out, Worker &worker) const {
+        const FacePattern &pattern = patterns.of(face);
+        numbering.face_vertices(face, pattern.interior_count, worker.vertices);
+        surface.prepare(face, worker.scratch);
+        for (std::size_t i = 0; i < worker.vertices.size(); ++i)
+            if (worker.vertices[i] >= numbering.face_first()[face])
+                evaluate_vertex(face, pattern.coordinate[i], worker.vertices[i], out, worker);
+    }
+
+    void evaluate_vertex(std::size_t face, const glm::dvec2 &at, std::uint32_t vertex,
+                         LimitMesh &out, Worker &worker) const {
+        LimitSample sample = surface.sample(at, worker.scratch);
+        out.position[vertex] = surface.centre() + sample.p;
+        if (!out.uv.empty())
+            out.uv[vertex] = glm::vec2(sample.t);
+        glm::dvec3 n, dp_du, dp_dv;
+        const bool has_uv = worker.scratch.has_uv;
+        const bool has_normal = sample.normal(n);
+        if (!has_normal || (has_uv && !sample.cloth(dp_du, dp_dv))) {
+            // Tangents vanish at a cusp or pole, and UVs at a T-junction, whose corner is straight:
+            // look a little further inside the face.
+            worker.repaired_normals += !has_normal;
+            sample = surface.sample(surface.nudged(at, worker.scratch), worker.scratch);
+            if (!sample.normal(n))
+                n = any_normal(mesh, face);
+        }
+        out.normal[vertex] = glm::vec3(n);
+        out.panel[vertex] = mesh.face_panel[face];
+        if (has_uv && sample.cloth(dp_du, dp_dv)) {
+            out.dp_du[vertex] = glm::vec3(dp_du);
+            out.dp_dv[vertex] = glm::vec3(dp_dv);
+        }
+    }
+
+    /// Frames after the first: weighted sums, and what no frame changes.
+    LimitMesh next_frame() {
+        if (!stencils) {
+            stencils.emplace(surface, patterns, numbering);
+            first = evaluate({});
+            for (std::vector<glm::vec3> *changing : {&first->normal, &first->dp_du, &first->dp_dv})
+                changing->clear();
+            first->position.clear();
+        }
+        LimitMesh out = *first;
+        out.position.resize(out.place.size());
+        out.normal.resize(out.place.size());
+        out.dp_du.resize(out.uv.size());
+        out.dp_dv.resize(out.uv.size());
+        stencils->apply(mesh, surface.centre(), out);
+        corners.apply(mesh.position, surface.centre(), out);
+        close_seams(out);
+        return out;
+    }
+
+    /// Both sides of a seam take the position of the first, so that no crack can open.
+    void close_seams(LimitMesh &out) const {
+        for (std::size_t v = 0; v < out.place.size(); ++v) {
+            out.position[v] = out.position[out.place[v]];
+            if (crease < kInfinitelySharp)
+                out.normal[v] = out.normal[out.place[v]];
+        }
+    }
+
+    LimitMesh evaluate(const Progress &progress) const {
+        LimitMesh out = fixed;
+        const std::size_t vertices = out.place.size();
+        out.position.resize(vertices);
+        out.normal.resize(vertices);
+        out.dp_du.assign(out.uv.size(), glm::vec3(0.0f));
+        out.dp_dv.assign(out.uv.size(), glm::vec3(0.0f));
+        tbb::enumerable_thread_specific<Worker> workers;
+        progress("subdivide", 0.0);
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, mesh.face_count(), 64), [&](auto range) {
+                for (std::size_t f = range.begin(); f != range.end() && !progress.stopped(); ++f)
+                    evaluate_face(f, out, workers.local());
+            });
+        if (progress.stopped())
+            throw Interrupted("stopped while subdividing");
+        for (const Worker &worker : workers)
+            out.repaired_normals += worker.repaired_normals;
+        corners.apply(mesh.position, surface.centre(), out);
+        close_seams(out);
+        progress("subdivide", 1.0);
+        return out;
+    }
+
+    PolygonMesh mesh;
+    double crease;
+    LimitSurface surface;
+    TessellationRates rates;
+    FacePatterns patterns;
+    LimitNumbering numbering;
+    LimitCorners corners;
+    LimitMesh fixed; ///< what no frame changes
+    std::optional<LimitStencils> stencils;
+    std::optional<LimitMesh> first; ///< what no frame changes, with UVs
+};
+
+Subdivider::Subdivider(PolygonMesh mesh, const SubdivideOptions &options)
+    : state_(std::make_unique<State>(std::move(mesh), options)) {}
+Subdivider::~Subdivider() = default;
+Subdivider::Subdivider(Subdivider &&) noexcept = default;
+Subdivider &Subdivider::operator=(Subdivider &&) noexcept = default;
+
+LimitMesh Subdivider::evaluate(const Progress &progress) { return state_->evaluate(progress); }
+
+void Subdivider::expect_frames() { state_->next_frame(); }
+
+LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions) {
+    if (positions.size() != state_->mesh.position.size())
+        throw Error({std::to_string(positions.size()) + " positions for " +
+                         std::to_string(state_->mesh.position.size()) + " vertices",
+                     "mesh", "expected the topology of the first frame"});
+    state_->mesh.position = positions;
+    check_indices(state_->mesh, "mesh");
+    state_->surface.set_positions(positions);
+    return state_->next_frame();
+}
+
+LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options,
+                    const Progress &progress) {
+    return Subdivider(mesh, options).evaluate(progress);
+}
+
+} // namespace tsuya::garment

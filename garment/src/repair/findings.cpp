@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "repair/measure.h"
+
+namespace tsuya::garment {
+namespace {
+
+/// Heights of a garment in metres that need no remark.
+constexpr double kLowest = 0.15, kHighest = 2.5;
+
+std::string number(double value) {
+    std::ostringstream text;
+    text.precision(4);
+    text << value;
+    return text.str();
+}
+
+std::string degrees(double radians) { return number(radians * 180.0 / std::numbers::pi); }
+
+class Findings {
+  public:
+    explicit Findings(Report &report) : report_(report) {}
+    /// The first place of a key, the file before the joined mesh.
+    std::string place(const std::string &key) const {
+        for (const FirstPlaces *places : {&report_.file.first_place, &report_.joined.first_place,
+                                          &report_.seams.first_place, &report_.first_place})
+            if (const auto it = places->find(key); it != places->end())
+                return it->second;
+        return "";
+    }
+
+    void add(Severity severity, std::string key, std::string what, std::string action,
+             std::string where = "") {
+        report_.findings.push_back(
+            {severity, std::move(key), std::move(what), std::move(where), std::move(action)});
+    }
+    /// Only where something was counted.
+    void count(std::size_t n, Severity severity, std::string key, const std::string &what,
+               std::string action) {
+        if (n > 0)
+            add(severity, key, std::to_string(n) + " " + what, std::move(action), place(key));
+    }
+
+  private:
+    Report &report_;
+};
+
+/// The unit that would make a garment of this height, or an empty string.
+std::string likely_unit(double height) {
+    const std::pair<const char *, double> units[] = {
+        {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+    for (const auto &[name, metres] : units)
+        if (height * metres >= 0.3 && height * metres <= 2.0)
+            return name;
+    return "";
+}
+
+void find_units(const Report &report, Findings &findings) {
+    const glm::dvec3 size = report.upper - report.lower;
+    const double height = std::max({size.x, size.y, size.z});
+    if (height >= kLowest && height <= kHighest)
+        return;
+    const std::string unit = likely_unit(height);
+    findings.add(Severity::warning, "unusual_size",
+                 "the mesh measures " + number(height) + " m at most",
+                 unit.empty() ? "read as metres; state the unit of the file"
+                              : "read as metres; if the file is in " + unit + ", state that unit");
+}
+
+void find_topology(const Report &r, Findings &f) {
+    const auto note = Severity::note, warning = Severity::warning;
+    f.count(r.file.degenerate_faces, note, "degenerate_faces",
+            "faces have fewer than 3 different vertices or name one twice", "dropped");
+    f.count(r.file.duplicate_faces, warning, "duplicate_faces",
+            "faces have the same vertices as another", "dropped");
+    f.count(r.file.isolated_vertices, note, "isolated_vertices", "vertices belong to no face",
+            "dropped");
+    f.count(r.file.non_manifold_edges, warning, "non_manifold_edges",
+            "edges border more than two faces", "taken apart in pairs");
+    f.count(r.file.non_manifold_vertices, warning, "non_manifold_vertices",
+            "fans of faces meet others in a vertex alone", "given a vertex of their own");
+    f.count(r.file.flipped_faces + r.joined.flipped_faces, warning, "flipped_faces",
+            "faces are turned against their neighbours", "turned over");
+    f.count(r.file.unorientable_edges + r.joined.unorientable_edges, warning, "unorientable_edges",
+            "edges lie on a surface that has one side only", "cut open");
+    f.count(r.joined.non_manifold_edges, note, "layered_seams",
+            "edges join more than two layers of cloth", "layers joined in pairs");
+    f.count(r.file.detached_faces + r.joined.detached_faces, warning, "detached_faces",
+            "faces could not be kept with their neighbours", "cut off");
+    f.count(r.joined.duplicate_faces + r.joined.degenerate_faces, note, "collapsed_faces",
+            "faces lost their area when seams were joined", "dropped");
+}
+
+void find_seams(const Report &r, Findings &f) {
+    f.count(r.seams.joined, Severity::note, "joined_vertices",
+            "boundary vertices lie at another panel's (largest gap " +
+                number(1e3 * r.seams.largest_gap) + " mm)",
+            "joined");
+    f.count(r.seams.splits, Severity::note, "t_junctions",
+            "boundary vertices lie on another panel's edge", "put into that edge");
+    f.count(r.seams.slits, Severity::note, "slits",
+            "gaps along seams are wider than the tolerance but narrow", "closed");
+    f.count(r.seams.collapsed_edges, Severity::note, "collapsed_edges",
+            "edges shorter than the tolerance hold a gap open", "their ends made one vertex");
+    f.count(r.seams.unresolved, Severity::warning, "unresolved_seams",
+            "boundary vertices lie near another boundary and could not be joined",
+            "look at the seam, or state another tolerance");
+    double length = 0.0;
+    for (const BoundaryLoop &loop : r.openings)
+        length += loop.length;
+    f.count(r.openings.size(), Severity::note, "openings",
+            "openings with " + number(length) + " m of edge",
+            "left open; the edge becomes a smooth curve");
+}
+
+/// Cloth shears a lot before it buckles, but hardly beyond this.
+constexpr double kUsualShear = 35.0 * std::numbers::pi / 180.0;
+/// Share of stretch between the 5th and 95th percentile that draped cloth hardly has.
+constexpr double kUsualStretch = 1.3;
+
+void find_shear(const Report &r, Findings &f) {
+    constexpr double kRight = 0.5 * std::numbers::pi;
+    const double shear = std::max(kRight - r.warp_weft_angle.p5, r.warp_weft_angle.p95 - kRight);
+    if (r.warp_weft_angle.p50 > 0.0 && shear > kUsualShear)
+        f.add(Severity::note, "strong_shear",
+              "warp and weft enclose " + degrees(r.warp_weft_angle.p5) + " to " +
+                  degrees(r.warp_weft_angle.p95) + " degrees (5th and 95th percentile)",
+              "both directions kept; the warp leads");
+    for (const auto &[name, p] :
+         {std::pair("u", r.metres_per_uv_weft), std::pair("v", r.metres_per_uv_warp)})
+        if (p.p5 > 0.0 && p.p95 / p.p5 > kUsualStretch)
+            f.add(Severity::note, "uneven_stretch",
+                  std::string(name) + " measures " + number(p.p5) + " to " + number(p.p95) +
+                      " m a unit (5th and 95th percentile)",
+                  "kept; the pattern stretches with the cloth");
+}
+
+void find_uv(const Report &r, Findings &f) {
+    if (r.faces_without_uv == r.faces || r.uvs == 0) {
+        f.add(Severity::note, "no_uv", "no face has UVs",
+              "no yarn directions unless a grain is stated");
+        return;
+    }
+    f.count(r.faces_without_uv, Severity::warning, "faces_without_uv", "faces have no UV",
+            "directions spread from their neighbours");
+    f.count(r.faces_without_uv_area, Severity::warning, "faces_without_uv_area",
+            "faces have UVs without area", "directions spread from their neighbours");
+    f.count(r.mirrored_islands, Severity::note, "mirrored_islands", "UV islands are mirrored",
+            "warp kept, weft turned round");
+    if (r.mirrored_islands == 0)
+        f.count(r.mirrored_faces, Severity::warning, "mirrored_faces",
+                "faces are mirrored inside their UV island", "warp kept, weft turned round");
+    const double shear = r.metres_per_uv_weft.p50 / r.metres_per_uv_warp.p50;
+    if (std::isfinite(shear) && (shear > 1.25 || shear < 0.8))
+        f.add(Severity::warning, "uneven_uv_scale",
+              "u measures " + number(r.metres_per_uv_weft.p50) + " m and v " +
+                  number(r.metres_per_uv_warp.p50) + " m a unit",
+              "kept; the pattern will look stretched");
+    find_shear(r, f);
+}
+
+} // namespace
+
+void find_all(const PolygonMesh &mesh, Report &report) {
+    Findings findings(report);
+    find_units(report, findings);
+    find_topology(report, findings);
+    find_seams(report, findings);
+    find_uv(report, findings);
+    if (mesh.panel_name.empty())
+        findings.add(Severity::note, "no_panels", "the file names no group, object or material",
+                     "UV islands stand for panels");
+}
+
+} // namespace tsuya::garment

@@ -1,0 +1,121 @@
+#include "repair/open_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace tsuya::garment {
+namespace {
+
+/// A vertex is put into an edge only this far from its ends, as a share of the edge, and farther
+/// than the tolerance or the second share: a vertex nearer to an end is that end's affair.
+constexpr double kInnerShare = 0.02;
+constexpr double kEndShare = 0.1;
+
+/// Open edges by place.
+class OpenEdges {
+  public:
+    OpenEdges(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed)
+        : mesh_(mesh), tolerance_(tolerance), edges_(open_edges(mesh, allowed)), cell_(cell_size()),
+          grid_(bounds(mesh).lower, cell_) {
+        for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+            // In pieces of a cell's size: the box of a long edge would hold very many cells.
+            const glm::dvec3 a = mesh.position[edges_[i].low], b = mesh.position[edges_[i].high];
+            const double pieces = std::max(1.0, std::ceil(glm::distance(a, b) / cell_));
+            for (double k = 0.0; k < pieces; ++k) {
+                const glm::dvec3 p = a + k / pieces * (b - a), q = a + (k + 1.0) / pieces * (b - a);
+                grid_.insert(i, glm::min(p, q) - tolerance, glm::max(p, q) + tolerance);
+            }
+        }
+    }
+
+    const std::vector<EdgeUse> &edges() const { return edges_; }
+
+    /// The nearest open edge that `v` lies on but does not touch.
+    std::optional<Insertion> nearest(std::uint32_t v) const {
+        std::optional<Insertion> best;
+        const glm::dvec3 p = mesh_.position[v];
+        for (const std::uint32_t i : grid_.at(p)) {
+            const EdgeUse &e = edges_[i];
+            if (face_has(e.face, v))
+                continue;
+            const glm::dvec3 a = mesh_.position[mesh_.corner_position[e.corner]];
+            const glm::dvec3 b =
+                mesh_.position[mesh_.corner_position[mesh_.next(e.face, e.corner)]];
+            const double length2 = glm::dot(b - a, b - a);
+            const double t = length2 > 0.0 ? glm::dot(p - a, b - a) / length2 : 0.0;
+            const double room = std::min(tolerance_, kEndShare * std::sqrt(length2));
+            if (t < kInnerShare || t > 1.0 - kInnerShare ||
+                std::min(glm::distance(p, a), glm::distance(p, b)) <= room)
+                continue;
+            const double distance = glm::distance(p, a + t * (b - a));
+            const double reach = std::min(tolerance_, kEdgeShare * std::sqrt(length2));
+            if (distance <= reach && (!best || distance < best->distance))
+                best = Insertion{e.corner, t, v, distance};
+        }
+        return best;
+    }
+
+  private:
+    double cell_size() const {
+        double sum = 0.0;
+        for (const EdgeUse &e : edges_)
+            sum += glm::distance(mesh_.position[e.low], mesh_.position[e.high]);
+        const double mean = edges_.empty() ? 1.0 : sum / static_cast<double>(edges_.size());
+        return std::max({mean, 2.0 * tolerance_, 1e-300});
+    }
+    bool face_has(std::size_t f, std::uint32_t v) const {
+        const auto first = mesh_.corner_position.begin();
+        return std::find(first + mesh_.face_offset[f], first + mesh_.face_offset[f + 1], v) !=
+               first + mesh_.face_offset[f + 1];
+    }
+
+    const PolygonMesh &mesh_;
+    double tolerance_;
+    std::vector<EdgeUse> edges_;
+    double cell_;
+    PlaceGrid grid_;
+};
+
+} // namespace
+
+std::vector<EdgeUse> open_edges(const PolygonMesh &mesh, const VertexSet &allowed) {
+    std::vector<EdgeUse> open;
+    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() == 1 && allowed.has(uses[0].low) && allowed.has(uses[0].high))
+            open.push_back(uses[0]);
+    });
+    return open;
+}
+
+std::vector<std::uint32_t> ends_of(const std::vector<EdgeUse> &edges) {
+    std::vector<std::uint32_t> ends;
+    for (const EdgeUse &e : edges) {
+        ends.push_back(e.low);
+        ends.push_back(e.high);
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+}
+
+std::vector<Insertion> find_insertions(const PolygonMesh &mesh, double tolerance,
+                                       const VertexSet &allowed) {
+    const OpenEdges open(mesh, tolerance, allowed);
+    std::vector<Insertion> insertions;
+    for (const std::uint32_t v : ends_of(open.edges()))
+        if (const auto insertion = open.nearest(v))
+            insertions.push_back(*insertion);
+    std::sort(insertions.begin(), insertions.end(), [](const Insertion &a, const Insertion &b) {
+        return std::tie(a.corner, a.t, a.vertex) < std::tie(b.corner, b.t, b.vertex);
+    });
+    // Two vertices at one place of an edge would make an edge of no length: the second waits.
+    const auto last = std::unique(insertions.begin(), insertions.end(),
+                                  [](const Insertion &a, const Insertion &b) {
+                                      return a.corner == b.corner && b.t - a.t < kInnerShare;
+                                  });
+    insertions.erase(last, insertions.end());
+    return insertions;
+}
+
+} // namespace tsuya::garment

@@ -1,0 +1,129 @@
+#include "repair/sewing.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "mesh/edges.h"
+#include "repair/split_triangle.h"
+
+namespace tsuya::garment {
+namespace {
+
+/// A face with its new corners, and where they lie in the plane of a triangle.
+struct GrownFace {
+    std::vector<std::uint32_t> vertex;
+    std::vector<std::int32_t> uv;
+    std::vector<glm::dvec2> plane;
+    std::vector<std::uint32_t> origin;
+};
+
+/// The corners of a triangle in its own plane.
+std::array<glm::dvec2, 3> flatten(const PolygonMesh &mesh, std::size_t f) {
+    const std::uint32_t *v = &mesh.corner_position[mesh.face_offset[f]];
+    const glm::dvec3 ab = mesh.position[v[1]] - mesh.position[v[0]];
+    const glm::dvec3 ac = mesh.position[v[2]] - mesh.position[v[0]];
+    const double length = glm::length(ab);
+    if (!(length > 0.0))
+        return {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1)};
+    return {glm::dvec2(0, 0), glm::dvec2(length, 0),
+            glm::dvec2(glm::dot(ac, ab) / length, glm::length(glm::cross(ab, ac)) / length)};
+}
+
+GrownFace grow_face(const Sewn &sewn, std::size_t f, std::span<const Insertion> insertions,
+                    std::vector<glm::dvec2> &uvs) {
+    const PolygonMesh &mesh = sewn.mesh;
+    GrownFace grown;
+    const std::uint32_t first = mesh.face_offset[f];
+    const auto corners = mesh.face_size(f) == 3 ? flatten(mesh, f) : std::array<glm::dvec2, 3>{};
+    for (std::uint32_t c = first; c < mesh.face_offset[f + 1]; ++c) {
+        const std::uint32_t n = mesh.next(f, c);
+        const glm::dvec2 a = corners[(c - first) % 3], b = corners[(n - first) % 3];
+        grown.vertex.push_back(mesh.corner_position[c]);
+        grown.uv.push_back(mesh.corner_uv[c]);
+        grown.plane.push_back(a);
+        grown.origin.push_back(sewn.origin[c]);
+        for (const Insertion &i : insertions) {
+            if (i.corner != c)
+                continue;
+            grown.origin.push_back(i.origin);
+            grown.vertex.push_back(i.vertex);
+            grown.plane.push_back(a + i.t * (b - a));
+            if (mesh.corner_uv[c] < 0 || mesh.corner_uv[n] < 0) {
+                grown.uv.push_back(-1);
+                continue;
+            }
+            const glm::dvec2 s = uvs[static_cast<std::size_t>(mesh.corner_uv[c])];
+            const glm::dvec2 e = uvs[static_cast<std::size_t>(mesh.corner_uv[n])];
+            grown.uv.push_back(static_cast<std::int32_t>(uvs.size()));
+            uvs.push_back((1.0 - i.t) * s + i.t * e);
+        }
+    }
+    return grown;
+}
+
+} // namespace
+
+Sewn insert_vertices(const Sewn &sewn, const std::vector<Insertion> &insertions) {
+    const PolygonMesh &mesh = sewn.mesh;
+    Sewn out{
+        .mesh = {}, .origin = {}, .next_origin = sewn.next_origin, .triangles = sewn.triangles};
+    out.mesh.position = mesh.position;
+    out.mesh.uv = mesh.uv;
+    out.mesh.panel_name = mesh.panel_name;
+    std::size_t next = 0;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const std::size_t first = next;
+        while (next < insertions.size() && insertions[next].corner < mesh.face_offset[f + 1])
+            ++next;
+        const GrownFace grown =
+            grow_face(sewn, f, std::span(insertions).subspan(first, next - first), out.mesh.uv);
+        if (next == first || !sewn.triangles) {
+            out.mesh.add_face(grown.vertex, grown.uv, mesh.face_panel[f]);
+            out.origin.insert(out.origin.end(), grown.origin.begin(), grown.origin.end());
+            continue;
+        }
+        for (const auto &[a, b, c] : split_triangle(grown.plane)) {
+            out.mesh.add_face({grown.vertex[a], grown.vertex[b], grown.vertex[c]},
+                              {grown.uv[a], grown.uv[b], grown.uv[c]}, mesh.face_panel[f]);
+            out.origin.insert(out.origin.end(),
+                              {grown.origin[a], grown.origin[b], grown.origin[c]});
+        }
+    }
+    return out;
+}
+
+void halve_coincident_edges(Sewn &sewn, PositionRecipe &recipe) {
+    const PolygonMesh &mesh = sewn.mesh;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> middles;
+    std::vector<Insertion> insertions;
+    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() < 3)
+            return;
+        const auto origin = [&](const EdgeUse &use) {
+            return std::pair(sewn.origin[corner_at(mesh, use, use.low)],
+                             sewn.origin[corner_at(mesh, use, use.high)]);
+        };
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            for (std::size_t j = i + 1; j < uses.size(); ++j) {
+                if (origin(uses[i]) != origin(uses[j]))
+                    continue;
+                const auto middle =
+                    static_cast<std::uint32_t>(mesh.position.size() + middles.size());
+                middles.emplace_back(uses[i].low, uses[i].high);
+                for (const EdgeUse &use : {uses[i], uses[j]})
+                    insertions.push_back({use.corner, 0.5, middle, 0.0, sewn.next_origin});
+                ++sewn.next_origin;
+            }
+    });
+    if (insertions.empty())
+        return;
+    for (const auto &[a, b] : middles)
+        recipe.append_middle(sewn.mesh.position, a, b);
+    std::sort(insertions.begin(), insertions.end(),
+              [](const Insertion &a, const Insertion &b) { return a.corner < b.corner; });
+    sewn = insert_vertices(sewn, insertions);
+    share_equal_uvs(sewn.mesh);
+}
+
+} // namespace tsuya::garment

@@ -1,0 +1,51 @@
+#include "repair/slits.h"
+
+#include "repair/topology.h"
+
+namespace tsuya::garment {
+namespace {
+
+double distance_to_segment(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b) {
+    const double length2 = glm::dot(b - a, b - a);
+    const double t = length2 > 0.0 ? glm::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0.0;
+    return glm::distance(p, a + t * (b - a));
+}
+
+/// True for a loop as narrow as `width`: all of its vertices but the two tips lie that near to an
+/// edge of the loop that they do not touch.
+bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
+    constexpr std::size_t kTips = 2, kMostEdges = 4096; // the time grows with the square
+    const std::size_t n = loop.size();
+    if (n > kMostEdges)
+        return false;
+    std::size_t wide = 0;
+    for (std::size_t i = 0; i < n && wide <= kTips; ++i) {
+        bool near = false;
+        for (std::size_t k = 1; k + 1 < n && !near; ++k)
+            near = distance_to_segment(loop[i], loop[(i + k) % n], loop[(i + k + 1) % n]) <= width;
+        wide += !near;
+    }
+    return wide <= kTips && wide < n;
+}
+
+} // namespace
+
+std::size_t find_slits(const PolygonMesh &mesh, double width, VertexSet &slits) {
+    std::size_t count = 0;
+    const HalfEdgeMesh half_edges = make_half_edges(mesh);
+    slits.member.assign(mesh.position.size(), false);
+    for (const BoundaryRun &run : boundary_runs(half_edges)) {
+        std::vector<glm::dvec3> loop;
+        for (const auto h : run)
+            loop.push_back(
+                mesh.position[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())]);
+        if (!is_slit(loop, width))
+            continue;
+        ++count;
+        for (const auto h : run)
+            slits.member[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())] = true;
+    }
+    return count;
+}
+
+} // namespace tsuya::garment

@@ -1,0 +1,64 @@
+#pragma once
+/// \file
+/// The contract of every reflectance model, and the closed set of models.
+///
+/// Directions are unit, in the cloth's frame (x = weft, y = warp, z = normal), and point away from
+/// the surface. Values are in 1/sr without the cosine. A model reflects on the side z > 0 only: any
+/// direction with z <= 0 gives 0. Models are values: no state, no allocation, no virtual call.
+
+#include <concepts>
+#include <optional>
+#include <variant>
+
+#include <glm/glm.hpp>
+
+#include "tsuya/sdk/ggx.h"
+#include "tsuya/sdk/half_vector.h"
+#include "tsuya/sdk/lambert.h"
+#include "tsuya/sdk/detail/sampled_direction.h"
+#include "tsuya/sdk/tabulated.h"
+#include "tsuya/sdk/takeda.h"
+#include "tsuya/sdk/takeda_printed.h"
+#include "tsuya/sdk/yarn.h"
+
+namespace tsuya {
+
+// clang-format off
+template <class T>
+concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer, glm::vec3 u) {
+    /// f in 1/sr
+    { m.evaluate(to_light, to_viewer) } -> std::same_as<float>;
+    /// f times the light's cosine, in a form that stays bounded where the cosine vanishes
+    { m.evaluate_cos(to_light, to_viewer) } -> std::same_as<float>;
+    /// Draws a light for a view; weight = f cos_light / pdf. Empty: a null sample, which counts as drawn.
+    { m.sample(to_viewer, u) } -> std::same_as<std::optional<SampledDirection>>;
+    /// Draws a view for a light; weight = f cos_viewer / pdf.
+    { m.sample_adjoint(to_light, u) } -> std::same_as<std::optional<SampledDirection>>;
+    /// Density of `sample`, 1/sr of to_light
+    { m.pdf(to_light, to_viewer) } -> std::same_as<float>;
+    /// `evaluate_cos` and `pdf` at once, which share most of their work
+    { m.weigh(to_light, to_viewer) } -> std::same_as<WeighedLight>;
+    /// Density of `sample_adjoint`, 1/sr of to_viewer
+    { m.pdf_adjoint(to_light, to_viewer) } -> std::same_as<float>;
+    /// Share of the light from one direction that is reflected: energy
+    { m.albedo_of_light(to_light) } -> std::same_as<float>;
+    /// Radiance seen from one direction under a uniform environment of radiance 1
+    { m.albedo_of_view(to_viewer) } -> std::same_as<float>;
+    /// What the model claims; the contract test holds it to it
+    { T::kReciprocal } -> std::convertible_to<bool>;
+    { T::kEnergyLimited } -> std::convertible_to<bool>;
+};
+// clang-format on
+
+using Brdf = std::variant<LambertBrdf, TakedaBrdf, TakedaPrintedBrdf, HalfVectorBrdf, GgxBrdf,
+                          TabulatedBrdf, YarnBrdf>;
+
+static_assert(BrdfModel<LambertBrdf>);
+static_assert(BrdfModel<TakedaBrdf>);
+static_assert(BrdfModel<TakedaPrintedBrdf>);
+static_assert(BrdfModel<HalfVectorBrdf>);
+static_assert(BrdfModel<GgxBrdf>);
+static_assert(BrdfModel<TabulatedBrdf>);
+static_assert(BrdfModel<YarnBrdf>);
+
+} // namespace tsuya

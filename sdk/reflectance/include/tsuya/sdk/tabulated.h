@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// A whole table of light and view as a model: the truth that the others are held to.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "tsuya/sdk/detail/albedo_table.h"
+#include "tsuya/sdk/detail/direction_sampler.h"
+#include "tsuya/sdk/reflectance_table.h"
+#include "tsuya/sdk/detail/ring_grid.h"
+#include "tsuya/sdk/detail/sampled_direction.h"
+
+namespace tsuya {
+
+/// Meets every row of the table, averaged over the mirror images that its symmetry makes equal.
+/// Between the rows it is linear along V0 of [Takeda]: highlights move with the light and do not
+/// fade over. Beyond the outermost ring of lights or views the outermost is carried on. Neither
+/// reciprocal nor limited in energy: it is what was measured. See brdf.h for the contract.
+class TabulatedBrdf {
+  public:
+    static constexpr bool kReciprocal = false;
+    static constexpr bool kEnergyLimited = false;
+
+    /// Throws Error naming `where`: light from fewer than 4 directions, or less than 6 views of
+    /// one; as check_table.
+    TabulatedBrdf(const ReflectanceTable &table, const std::string &where);
+
+    float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
+    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
+                                                   const glm::vec3 &u) const;
+    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float albedo_of_light(const glm::vec3 &to_light) const;
+    float albedo_of_view(const glm::vec3 &to_viewer) const;
+
+  private:
+    struct Light {
+        glm::vec3 to_light{0, 0, 1};
+        RingGrid views{};
+        std::vector<float> value{}; ///< rho cos_i cos_r over the masking of [Takeda] Eq. 4
+    };
+    float regular_value(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+
+    std::vector<Light> lights_{};
+    RingGrid grid_{};
+    DirectionSampler light_sampler_{}, view_sampler_{};
+    AlbedoTable light_albedo_{}, view_albedo_{};
+};
+
+} // namespace tsuya

@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// The model of [Takeda] with Eqs. 16-17 as they are printed: for reproducing the paper, and
+/// nothing else.
+
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "tsuya/sdk/detail/albedo_table.h"
+#include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/detail/direction_sampler.h"
+#include "tsuya/sdk/detail/disk_table.h"
+#include "tsuya/sdk/detail/sampled_direction.h"
+
+namespace tsuya {
+
+/// V0 by [Takeda] Eqs. 15-17: theta0 = a - (beta0/beta)(a - theta_r), phi0 = (beta0/beta) phi_r
+/// with a = pi/2. We read phi_r as counted from R, the horizontal direction away from the light.
+/// Not continuous at V = N. Both unit with z >= 0; light from straight above gives the identity.
+glm::vec3 printed_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer);
+
+/// rho_s(V, L) of [Takeda] Eq. 14 with that V0. Not reciprocal, not limited in energy. See brdf.h
+/// for the contract.
+class TakedaPrintedBrdf {
+  public:
+    static constexpr bool kReciprocal = false;
+    static constexpr bool kEnergyLimited = false;
+
+    /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
+    TakedaPrintedBrdf(const Bard &bard, double f0);
+
+    float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
+    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
+                                                   const glm::vec3 &u) const;
+    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float albedo_of_light(const glm::vec3 &to_light) const;
+    float albedo_of_view(const glm::vec3 &to_viewer) const;
+
+  private:
+    struct Terms;
+    Terms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+
+    float f0_ = 0.05f;
+    DiskTable scaled_{}; ///< rho0(V0) max(cos theta0, 1/2) / F(cos(theta0/2))
+    DirectionSampler lights_{}, views_{};
+    AlbedoTable light_albedo_{}, view_albedo_{};
+};
+
+} // namespace tsuya

@@ -1,0 +1,188 @@
+#include "tsuya/sdk/tabulated.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "models/facets.h"
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/detail/great_circle.h"
+
+namespace tsuya {
+namespace {
+
+constexpr std::size_t kLeastLights = 4, kLeastViews = 6;
+constexpr double kSameDirection = 1e-6; // in x, y and z
+constexpr float kLowest = 1e-5f;        // cosine that stands for the horizon itself
+constexpr float kAlmostOne = 1 - 1e-5f;
+constexpr int kAlbedoSamples = 2048;
+
+// A direction rounded, so that mirror images meet again.
+using Key = std::pair<long, long>;
+Key key_of(const glm::dvec3 &d) {
+    return {std::lround(d.x / kSameDirection), std::lround(d.y / kSameDirection)};
+}
+
+glm::dvec3 direction_of(double theta, double phi) {
+    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+            std::max(0.0, std::cos(theta))};
+}
+
+std::vector<glm::dvec3> mirrors_of(Symmetry symmetry) {
+    std::vector<glm::dvec3> all = {{1, 1, 1}};
+    if (symmetry != Symmetry::none)
+        all.push_back({-1, -1, 1});
+    if (symmetry == Symmetry::orthotropic)
+        all.insert(all.end(), {{1, -1, 1}, {-1, 1, 1}});
+    return all;
+}
+
+struct ViewSum {
+    glm::dvec3 to_viewer;
+    double sum = 0, count = 0;
+};
+struct LightSum {
+    glm::dvec3 to_light;
+    std::map<Key, ViewSum> views{};
+};
+
+// All rows with their mirror images; those in one pair of directions together.
+std::map<Key, LightSum> gather(const ReflectanceTable &table) {
+    std::map<Key, LightSum> lights;
+    for (const ReflectanceRow &row : table.rows)
+        for (const glm::dvec3 &mirror : mirrors_of(table.symmetry)) {
+            const glm::dvec3 l = mirror * direction_of(row.theta_i, row.phi_i);
+            const glm::dvec3 v = mirror * direction_of(row.theta_r, row.phi_r);
+            LightSum &light = lights.try_emplace(key_of(l), LightSum{.to_light = l}).first->second;
+            ViewSum &view =
+                light.views.try_emplace(key_of(v), ViewSum{.to_viewer = v}).first->second;
+            view.sum += row.brdf_per_sr;
+            view.count += 1;
+        }
+    return lights;
+}
+
+// rho for a regular value of 1
+float unit_value(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
+    FacetTerms terms = FacetTerms::scaled(1, 1, to_light, to_viewer);
+    return terms.per_sr(std::max(to_light.z, kLowest), std::max(to_viewer.z, kLowest));
+}
+
+} // namespace
+
+TabulatedBrdf::TabulatedBrdf(const ReflectanceTable &table, const std::string &where) {
+    check_table(table, where);
+    const std::map<Key, LightSum> gathered = gather(table);
+    std::vector<glm::dvec3> to_lights;
+    for (const auto &[key, light] : gathered) {
+        Light made{.to_light = light.to_light};
+        std::vector<glm::dvec3> to_viewers;
+        for (const auto &[view_key, view] : light.views) {
+            to_viewers.push_back(view.to_viewer);
+            made.value.push_back(static_cast<float>(
+                view.sum / view.count / unit_value(made.to_light, glm::vec3(view.to_viewer))));
+        }
+        if (to_viewers.size() < kLeastViews)
+            throw Error({"a direction of light has " + std::to_string(to_viewers.size()) + " views",
+                         where, "expected 6 or more of each"});
+        made.views = RingGrid(to_viewers);
+        to_lights.push_back(light.to_light);
+        lights_.push_back(std::move(made));
+    }
+    if (lights_.size() < kLeastLights)
+        throw Error({"the table has light from " + std::to_string(lights_.size()) +
+                         " directions, mirror images among them",
+                     where, "expected light from 4 or more, as `--directions paper` has it"});
+    grid_ = RingGrid(to_lights);
+
+    view_sampler_ = DirectionSampler([&](const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
+        return evaluate(to_light, to_viewer) * to_viewer.z;
+    });
+    light_sampler_ = DirectionSampler([&](const glm::vec3 &to_viewer, const glm::vec3 &to_light) {
+        return evaluate_cos(to_light, to_viewer);
+    });
+    light_albedo_ = AlbedoTable(table.symmetry, [&](const glm::vec3 &to_light) {
+        return mean_weight([&](const glm::vec3 &u) { return sample_adjoint(to_light, u); },
+                           kAlbedoSamples);
+    });
+    view_albedo_ = AlbedoTable(table.symmetry, [&](const glm::vec3 &to_viewer) {
+        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
+                           kAlbedoSamples);
+    });
+}
+
+float TabulatedBrdf::regular_value(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    const glm::vec3 basic = to_basic(to_light, to_viewer).basic;
+    const RingGrid::Corners about = grid_.about(to_light);
+    float sum = 0;
+    for (int k = 0; k < about.count; ++k) {
+        const RingGrid::Corner &corner = about.corner[k];
+        const Light &light = lights_[corner.index];
+        const glm::vec3 seen =
+            corner.weight > kAlmostOne ? to_viewer : view_of_basic(light.to_light, basic).to_viewer;
+        const RingGrid::Corners views = light.views.about(seen);
+        for (int i = 0; i < views.count; ++i)
+            sum += corner.weight * views.corner[i].weight * light.value[views.corner[i].index];
+    }
+    return sum;
+}
+
+float TabulatedBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    if (!(to_light.z > 0 && to_viewer.z > 0))
+        return 0;
+    return FacetTerms::scaled(regular_value(to_light, to_viewer), 1, to_light, to_viewer)
+        .per_sr(to_light.z, to_viewer.z);
+}
+
+float TabulatedBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    if (!(to_light.z > 0 && to_viewer.z > 0))
+        return 0;
+    return FacetTerms::scaled(regular_value(to_light, to_viewer), 1, to_light, to_viewer)
+        .cos(to_light.z, to_viewer.z);
+}
+
+float TabulatedBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return to_light.z > 0 && to_viewer.z > 0 ? light_sampler_.pdf(to_viewer, to_light) : 0.0f;
+}
+
+float TabulatedBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return to_light.z > 0 && to_viewer.z > 0 ? view_sampler_.pdf(to_light, to_viewer) : 0.0f;
+}
+
+WeighedLight TabulatedBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return {evaluate_cos(to_light, to_viewer), pdf(to_light, to_viewer)};
+}
+
+std::optional<SampledDirection> TabulatedBrdf::sample(const glm::vec3 &to_viewer,
+                                                      const glm::vec3 &u) const {
+    if (!(to_viewer.z > 0))
+        return std::nullopt;
+    const auto to_light = light_sampler_.sample(to_viewer, u);
+    if (!to_light)
+        return std::nullopt;
+    const float density = light_sampler_.pdf(to_viewer, *to_light);
+    return SampledDirection{*to_light, evaluate_cos(*to_light, to_viewer) / density, density};
+}
+
+std::optional<SampledDirection> TabulatedBrdf::sample_adjoint(const glm::vec3 &to_light,
+                                                              const glm::vec3 &u) const {
+    if (!(to_light.z > 0))
+        return std::nullopt;
+    const auto to_viewer = view_sampler_.sample(to_light, u);
+    if (!to_viewer)
+        return std::nullopt;
+    const float density = view_sampler_.pdf(to_light, *to_viewer);
+    return SampledDirection{*to_viewer, evaluate(to_light, *to_viewer) * to_viewer->z / density,
+                            density};
+}
+
+float TabulatedBrdf::albedo_of_light(const glm::vec3 &to_light) const {
+    return to_light.z > 0 ? light_albedo_.at(to_light) : 0.0f;
+}
+
+float TabulatedBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
+    return to_viewer.z > 0 ? view_albedo_.at(to_viewer) : 0.0f;
+}
+
+} // namespace tsuya

@@ -1,0 +1,69 @@
+#pragma once
+/// \file
+/// What is rendered: surfaces with fabrics, lights in groups, a camera. Parts refer to each other
+/// by typed index.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "tsuya/sdk/camera.h"
+#include "tsuya/sdk/fabric.h"
+#include "tsuya/sdk/image.h"
+#include "tsuya/sdk/surface.h"
+
+namespace tsuya {
+
+/// An index into the array of that kind in a Scene.
+template <class Tag> struct Index {
+    std::uint32_t value = 0;
+    bool operator==(const Index &) const = default;
+};
+using SurfaceIndex = Index<struct SurfaceTag>;
+using FabricIndex = Index<struct FabricTag>;
+using LightGroupIndex = Index<struct LightGroupTag>;
+
+/// A surface dressed in a fabric.
+struct Object {
+    std::string name{};
+    SurfaceIndex surface{};
+    FabricIndex fabric{};
+};
+
+/// A rectangle that shines to the side of cross(edge_u, edge_v). Radiance is relative to the
+/// group's lamp: a perfect white diffuser that receives irradiance pi has T = 1.
+struct RectangleLight {
+    glm::dvec3 corner{0, 2, 2};
+    glm::dvec3 edge_u{1, 0, 0}, edge_v{0, 1, 0}; ///< metres
+    double radiance = 1.0;                       ///< >= 0
+    LightGroupIndex group{};
+};
+
+/// Light from infinitely far. With a picture: its first channel, latitude-longitude, row 0 towards
+/// +y, the centre column towards +z; scaled by `radiance`.
+struct Environment {
+    double radiance = 1.0; ///< >= 0
+    std::optional<Image> picture{};
+    LightGroupIndex group{};
+    bool visible = true; ///< to the camera directly
+};
+
+struct Scene {
+    std::vector<Surface> surfaces{};
+    std::vector<Fabric> fabrics{};
+    std::vector<Object> objects{};
+    std::vector<std::string> light_groups{
+        "key"}; ///< each gets its own transport, and so its own lamp
+    std::vector<RectangleLight> rectangles{};
+    std::optional<Environment> environment{};
+    Camera camera{};
+};
+
+/// Throws Error with every broken rule of the scene: an index out of range, a light without area, a
+/// camera that looks nowhere, no light, no object.
+void check_scene(const Scene &scene);
+
+} // namespace tsuya
