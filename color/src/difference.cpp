@@ -1,13 +1,11 @@
 #include "tsuya/color/difference.h"
+#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tsuya {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // [CIE015] section 8.2.1: the cube root, with a straight piece near black.
 double lab_root(double t) {

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/feature_points.h"
@@ -16,8 +16,6 @@
 
 namespace tsuya::program {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class FitCommand final : public Command {
   public:

@@ -13,11 +13,11 @@
 
 #include "command.h"
 #include "json_file.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::program {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kF0 = 0.213; // [Takeda] sets f0 = rho0(0, 0), of its satin
 constexpr std::array kThetaDeg = {0.0, 15.0, 30.0, 45.0, 60.0, 75.0};
 constexpr std::array kMirrorDeg = {0.0, 14.0, 29.0, 45.0, 61.0, 76.0}; // where the peak was seen

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <iostream>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/picture_row.h"
 #include "tsuya/scene/ring_plot.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "weave_name.h"
 
@@ -90,7 +90,7 @@ class ShowCommand final : public Command {
             plot.models = {plot.fabric.model};
         if (!table_.empty())
             plot.against = read_reflectance_table(table_);
-        plot.theta_i = theta_i_deg_ * std::numbers::pi / 180;
+        plot.theta_i = theta_i_deg_ * kDegree;
         if (view_ == "lobes")
             scene::plot_lobes({plot.fabric, plot.models.front(), plot.against}, output_);
         else if (view_ == "bodies")
@@ -120,7 +120,7 @@ class ShowCommand final : public Command {
         scene::prepare_output_file(output_, {".png", ".svg"});
         settings_.height = settings_.width;
         settings_.across = across_mm_ * 1e-3;
-        settings_.tilt = tilt_deg_ * std::numbers::pi / 180;
+        settings_.tilt = tilt_deg_ * kDegree;
         std::ostringstream bar;
         bar << "the bar is " << std::round(lab::scale_bar(weave, settings_) * 1e9) * 1e-6 << " mm";
         scene::write_picture_row(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::program {
@@ -20,7 +21,7 @@ std::optional<double> parse_grain(const std::string &text) {
     if (error != std::errc{} || stop != text.data() + text.size() || !(std::abs(degrees) <= 360))
         throw Error({"'" + text + "' is no direction of the warp", "--grain",
                      "expected vertical, horizontal, or degrees from the vertical"});
-    return degrees * std::numbers::pi / 180;
+    return degrees * kDegree;
 }
 
 } // namespace tsuya::program

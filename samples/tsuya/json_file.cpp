@@ -1,8 +1,8 @@
 #include "json_file.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/file.h"
 
 namespace tsuya::program {
@@ -119,7 +119,7 @@ Json json_of(const ErrorMeasures &error) {
 
 double degrees_of(double angle) {
     constexpr double kSteps = 1e6;
-    return std::round(angle * 180 / std::numbers::pi * kSteps) / kSteps;
+    return std::round(angle / kDegree * kSteps) / kSteps;
 }
 
 void write_json(const std::filesystem::path &file, const Json &json) {

@@ -15,6 +15,7 @@
 
 #include "bench/allocated_bytes.h"
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/model.h"
 
 #if defined(__x86_64__) && !defined(__clang__)
@@ -29,8 +30,6 @@ namespace {
 using namespace tsuya;
 
 constexpr std::size_t kDirections = 4096;
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr float kPi = 3.14159265f;
 constexpr double kF0 = 0.05;
 
 // Even over the upper hemisphere.
@@ -39,7 +38,7 @@ std::vector<glm::vec3> even_directions(unsigned seed, std::size_t count = kDirec
     std::uniform_real_distribution<float> uniform;
     std::vector<glm::vec3> made;
     for (std::size_t i = 0; i < count; ++i) {
-        const float z = uniform(generator), phi = 2 * kPi * uniform(generator);
+        const float z = uniform(generator), phi = 2 * kPiF * uniform(generator);
         const float s = std::sqrt(1 - z * z);
         made.emplace_back(s * std::cos(phi), s * std::sin(phi), z);
     }
@@ -185,7 +184,7 @@ void ggx_block(const glm::vec3 *light, const glm::vec3 *view, float *f_cos, std:
             std::sqrt(ax * ax * lx[i] * lx[i] + ay * ay * ly[i] * ly[i] + lz[i] * lz[i]);
         const float sv =
             std::sqrt(ax * ax * vx[i] * vx[i] + ay * ay * vy[i] * vy[i] + vz[i] * vz[i]);
-        result[i] = 0.5f / (kPi * ax * ay) * t * t * (f0 + (1 - f0) * m2 * m2 * m) * lz[i] /
+        result[i] = 0.5f / (kPiF * ax * ay) * t * t * (f0 + (1 - f0) * m2 * m2 * m) * lz[i] /
                     (lz[i] * sv + vz[i] * sl + 1e-30f);
     }
     std::copy_n(result, count, f_cos);
@@ -267,9 +266,9 @@ void report_variance(benchmark::State &state, const Model &model, bool adjoint, 
                 return s ? s->weight : 0.0f;
             });
             state.counters["cosine_" + plane.name] = relative_variance([&](const glm::vec3 &u) {
-                const float phi = 2 * kPi * u.x, s = std::sqrt(u.y);
+                const float phi = 2 * kPiF * u.x, s = std::sqrt(u.y);
                 const glm::vec3 drawn(s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - u.y));
-                return kPi *
+                return kPiF *
                        (adjoint ? model.evaluate(fixed, drawn) : model.evaluate(drawn, fixed));
             });
         }

@@ -3,19 +3,18 @@
 
 #include <cmath>
 #include <ctime>
-#include <numbers>
 
 #include <benchmark/benchmark.h>
 
 #include "tsuya/lab/goniometer.h"
 #include "tsuya/lab/weave_geometry.h"
+#include "tsuya/sdk/angle.h"
 
 namespace {
 
 using namespace tsuya;
 using namespace tsuya::lab;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::uint64_t kSettled = 1u << 20; // photons a light of a convergence run
 constexpr std::uint64_t kLong = 1u << 23;    // of the run that others are compared with
 constexpr std::uint32_t kOtherSeed = 99;     // of what is compared with

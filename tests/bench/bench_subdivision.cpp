@@ -15,7 +15,6 @@ using namespace tsuya;
 
 constexpr int kWidth = 400, kHeight = 500;
 constexpr int kReferenceLevel = 6;
-constexpr double kDegree = 180 / 3.14159265358979;
 
 // What the camera meets first, without light.
 std::vector<Image> first_hits(int level) {
@@ -55,7 +54,7 @@ void subdivision_level(benchmark::State &state) {
             depth += std::abs(images[1].pixel(x, y)[0] - reference()[1].pixel(x, y)[0]);
             ++pixels;
         }
-    state.counters["error"] = warp / pixels * kDegree;
+    state.counters["error"] = warp / pixels / kDegree;
     state.counters["depth_error_mm"] = depth / pixels * 1000;
     state.counters["triangles"] = static_cast<double>(triangles);
 }
@@ -87,8 +86,8 @@ void tessellate(benchmark::State &state, const garment::SubdivideOptions &option
     state.counters["triangles"] = static_cast<double>(error.triangles);
     state.counters["position_mm"] = error.position * 1000;
     state.counters["position_rms_mm"] = error.position_rms * 1000;
-    state.counters["normal_rms_deg"] = error.normal_rms * kDegree;
-    state.counters["warp_rms_deg"] = error.warp_rms * kDegree;
+    state.counters["normal_rms_deg"] = error.normal_rms / kDegree;
+    state.counters["warp_rms_deg"] = error.warp_rms / kDegree;
 }
 
 void uniform(benchmark::State &state) {

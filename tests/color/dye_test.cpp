@@ -1,7 +1,6 @@
 #include "tsuya/color/dye.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/observer.h"
 #include "tsuya/color/srgb.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
@@ -19,7 +19,7 @@ glm::dvec3 lab_under(const Spectrum &lit, const Spectrum &reflectance) {
 }
 
 double hue_deg(const glm::dvec3 &lab) {
-    const double h = std::atan2(lab.z, lab.y) * 180 / std::numbers::pi;
+    const double h = std::atan2(lab.z, lab.y) / kDegree;
     return h < 0 ? h + 360 : h;
 }
 

@@ -8,11 +8,11 @@
 
 #include "test_meshes.h"
 #include "tsuya/garment/frames.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::garment {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2 * std::numbers::pi;
 /// Turned, so that the warp mixes both derivatives.
 constexpr double kGrain = 20 * kDegree;

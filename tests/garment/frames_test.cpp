@@ -4,13 +4,12 @@
 
 #include "test_meshes.h"
 #include "tsuya/garment/frames.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/frame.h"
 
 namespace tsuya::garment {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Surface surface_of(const PolygonMesh &mesh, const FrameOptions &options = {}, int level = 1) {
     FrameReport report;

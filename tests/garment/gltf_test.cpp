@@ -5,6 +5,7 @@
 #include "gltf_samples.h"
 #include "test_meshes.h"
 #include "tsuya/garment/garment.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
@@ -14,8 +15,6 @@ namespace {
 using test::glb;
 using test::square_buffer;
 using test::square_json;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 MeshFile square(const std::string &node = "", const std::string &material = "",
                 const std::string &attributes = "") {

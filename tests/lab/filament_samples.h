@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "tsuya/lab/goniometer.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::lab {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// Straight round filaments along the warp, far apart: one of radius 10 um every 0.4 mm.
 inline FilamentRepeat far_cylinders(const FilamentOptics &optics) {

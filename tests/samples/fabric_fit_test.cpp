@@ -8,6 +8,7 @@
 #include "samples/process.h"
 #include "samples/scratch.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/fabric.h"
 
 namespace tsuya::program {
@@ -31,7 +32,6 @@ std::string dozen_table(const Scratch &scratch, double odd = 1) {
     YarnLobes lobes = fit_yarn_lobes(*fabric.bard, 0.05);
     lobes.pit = {0.1, 0.05};
     const YarnBrdf brdf(lobes);
-    constexpr double kDegree = 0.017453292519943295;
     const auto direction = [](double theta, double phi) {
         return glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                          std::cos(theta));

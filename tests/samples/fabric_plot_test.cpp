@@ -10,6 +10,7 @@
 #include "samples/process.h"
 #include "samples/scratch.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/model.h"
 
@@ -18,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using scene::Scratch;
-
-constexpr double kDegree = 0.017453292519943295;
 
 fs::path satin() { return scene::data_folder() / "fabrics/black_satin.fabric.toml"; }
 

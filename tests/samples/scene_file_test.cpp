@@ -2,16 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "samples/scratch.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 SceneFile read(const Scratch &scratch, const std::string &text) {
     scratch.write("cloth.obj", cloth_obj());

@@ -3,14 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(Cyclorama, LooksAtTheCentreAndBendsSmoothly) {
     const Cyclorama shape{.centre = {1, 0.5, -2}, .azimuth = 0.7};

@@ -2,20 +2,18 @@
 
 #include <cmath>
 #include <iostream>
-#include <numbers>
 #include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 constexpr std::uint64_t kSeed = 20240919;
 
 // A lobe about the mirror direction over a weak even light.

@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/model.h"
 
 namespace tsuya::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 ReflectanceRow view(double theta_deg, double phi_deg, double value) {
     return {.theta_r = theta_deg * kDegree, .phi_r = phi_deg * kDegree, .brdf_per_sr = value};

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/feature_points.h"
 
 namespace tsuya::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 ReflectanceRow view(double theta_deg, double phi_deg, double value, double sigma = 0) {
     return {.theta_r = theta_deg * kDegree,

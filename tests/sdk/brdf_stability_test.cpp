@@ -16,6 +16,7 @@
 #include "sdk/brdf_checks.h"
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/detail/great_circle.h"
 #include "tsuya/sdk/model.h"
 
@@ -23,7 +24,7 @@ namespace tsuya::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20240921;
-constexpr double kDegree = 0.017453292519943295, kHalfPi = 1.5707963267948966;
+constexpr double kHalfPi = kPi / 2;
 
 long random_pairs() {
     const char *text = std::getenv("TSUYA_TEST_EFFORT");

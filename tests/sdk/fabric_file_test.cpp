@@ -7,20 +7,18 @@
 #include <cmath>
 #include <fstream>
 #include <locale>
-#include <numbers>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/document.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
 namespace tsuya::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // A folder of its own for every test, gone afterwards.
 class FilesTest : public testing::Test {

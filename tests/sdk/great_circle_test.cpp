@@ -9,13 +9,13 @@
 
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/takeda.h"
 
 namespace tsuya::test {
 namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kDraws = 20000;
 
 // [Takeda] Eq. 15 in double, as it is printed, with the direction turned in the plane of R and V.

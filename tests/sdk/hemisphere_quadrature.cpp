@@ -1,4 +1,5 @@
 #include "sdk/hemisphere_quadrature.h"
+#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@
 namespace tsuya::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLeastExpected = 5;
 
 // A rectangle of theta and phi with the midpoint sum of its four quarters.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::test {
@@ -138,7 +139,6 @@ TEST(Tabulated, MeetsItsRowsAndWhatLiesBetween) {
     EXPECT_NEAR(f(l, v), f(mirror * l, mirror * v), 1e-4 * f(l, v));
     // Between the lights of the table, where the highlight must move and not fade over
     ReflectanceTable between{.symmetry = cloth.symmetry};
-    constexpr double kDegree = 0.017453292519943295;
     for (double theta = 0; theta < 88; theta += 4)
         for (double phi = 0; phi < 360; phi += 10)
             between.rows.push_back({37 * kDegree, 20 * kDegree, theta * kDegree, phi * kDegree,
@@ -152,7 +152,6 @@ TEST(HalfVector, FindsTheFacetsOfAMicrofacetCloth) {
     const Cloth cloth{.yarns = {{.alpha_weft = 0.3, .alpha_warp = 0.1}}};
     const Fabric fabric{.name = "facets", .bard = bard_of(cloth), .f0 = cloth.f0};
     ReflectanceTable table{.symmetry = Symmetry::orthotropic};
-    constexpr double kDegree = 0.017453292519943295;
     for (double theta = 0; theta <= 75; theta += 5)
         for (double phi = 0; phi < 360; phi += 10)
             table.rows.push_back({45 * kDegree, 45 * kDegree, theta * kDegree, phi * kDegree,

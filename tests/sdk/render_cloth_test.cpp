@@ -1,8 +1,6 @@
 // What a cloth does that a solid does not: light through it, and colours of its two systems of
 // yarns.
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "sdk/render_scenes.h"

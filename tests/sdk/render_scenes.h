@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya::test {
@@ -52,7 +53,7 @@ inline Bard satin_bard() {
     ReflectanceTable table;
     for (int t = 0; t < 90; t += 10)
         for (int p = 0; p <= 90; p += 15) {
-            const double theta = t * std::numbers::pi / 180, phi = p * std::numbers::pi / 180;
+            const double theta = t * kDegree, phi = p * kDegree;
             const double x = std::tan(theta / 2) * std::cos(phi) / 0.4;
             const double y = std::tan(theta / 2) * std::sin(phi) / 0.12;
             const double q = 1 + x * x + y * y;

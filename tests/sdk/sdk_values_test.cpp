@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "tables/disk.h"
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
+#include "tables/disk.h"
 #include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/detail/disk_table.h"
 #include "tsuya/sdk/detail/distribution.h"

@@ -1,4 +1,5 @@
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,6 @@
 
 namespace tsuya::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 glm::dvec3 into_yarn(const glm::dvec3 &d, const YarnSystem &yarn) {
     const double c = std::cos(yarn.turn), s = std::sin(yarn.turn);

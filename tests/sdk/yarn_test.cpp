@@ -7,13 +7,13 @@
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
 #include "tsuya/sdk/accuracy.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::test {
 namespace {
 
 constexpr int kLevel = kYarnSlopes / 2;
-constexpr double kDegree = 0.017453292519943295;
 
 // A warp-faced cloth: level floats that dip at 10 degrees, over a weft that lies level.
 YarnLobes satin_lobes() {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "repair/measure.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::garment {
 namespace {
@@ -18,7 +19,7 @@ std::string number(double value) {
     return text.str();
 }
 
-std::string degrees(double radians) { return number(radians * 180.0 / std::numbers::pi); }
+std::string degrees(double radians) { return number(radians / kDegree); }
 
 class Findings {
   public:
@@ -117,7 +118,7 @@ void find_seams(const Report &r, Findings &f) {
 }
 
 /// Cloth shears a lot before it buckles, but hardly beyond this.
-constexpr double kUsualShear = 35.0 * std::numbers::pi / 180.0;
+constexpr double kUsualShear = 35.0 * kDegree;
 /// Share of stretch between the 5th and 95th percentile that draped cloth hardly has.
 constexpr double kUsualStretch = 1.3;
 

@@ -1,13 +1,12 @@
 #include <cmath>
-#include <numbers>
 
 #include "tsuya/lab/goniometer.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSlack = 1e-9; // of angles in degrees that are sums of steps
 
 void check_step(double step_deg, const char *where) {

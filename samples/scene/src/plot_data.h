@@ -3,17 +3,16 @@
 
 #include <array>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya::scene {
 
-inline constexpr double kDegree = std::numbers::pi / 180;
 inline constexpr double kPlottedDecades = 3.5; // of logarithmic scales, below the largest value
 inline constexpr double kSameAngle = 1e-3;     // radians
 inline constexpr std::array kThetaDeg = {0, 15, 30, 45, 60, 75}; // of the light, as in [Takeda]

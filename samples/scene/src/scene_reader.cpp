@@ -1,18 +1,17 @@
 #include "scene_reader.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/lamp.h"
 #include "tsuya/garment/mesh_file.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLargest = 1e6;   // metres, radiance, ...
 constexpr double kSmallest = 1e-6; // of what has to be above 0
 

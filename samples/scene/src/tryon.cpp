@@ -1,7 +1,6 @@
 #include "tsuya/scene/tryon.h"
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 
 #include "pixel_tolerance.h"
@@ -13,14 +12,13 @@
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/studio.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The studio, found by looking at the sample dress.
 constexpr double kBodyReflectance = 0.25;

@@ -1,4 +1,5 @@
 #include "lights.h"
+#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,6 @@
 
 namespace tsuya {
 namespace {
-constexpr float kPi = 3.14159265f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 } // namespace
 
@@ -44,9 +44,9 @@ Lights::Lights(const Scene &scene, const Plan &plan, const glm::dvec3 &centre,
             for (int y = 0; y < picture_->height; ++y)
                 for (int x = 0; x < picture_->width; ++x)
                     mass.push_back(picture_->pixel(x, y)[0] *
-                                   std::sin(kPi * (y + 0.5) / picture_->height));
+                                   std::sin(kPiF * (y + 0.5) / picture_->height));
             environment_density_ = Distribution2D(mass, picture_->height, picture_->width);
-            given.push_back(kPi * environment.radiance *
+            given.push_back(kPiF * environment.radiance *
                             std::accumulate(mass.begin(), mass.end(), 0.0) /
                             static_cast<double>(mass.size()));
         }
@@ -80,18 +80,18 @@ std::optional<LightRay> Lights::sample(std::size_t light, const glm::vec3 &from,
                         r.group};
     }
     const Distribution2D::Sample s = environment_density_.sample(u);
-    const float theta = kPi * s.point.y, phi = 2 * kPi * (s.point.x - 0.5f);
+    const float theta = kPiF * s.point.y, phi = 2 * kPiF * (s.point.x - 0.5f);
     const float sine = std::sin(theta);
     if (!(sine > 0))
         return std::nullopt;
     const glm::vec3 to_light(sine * std::sin(phi), std::cos(theta), sine * std::cos(phi));
     return LightRay{to_light, kInfinity, environment_radiance(to_light),
-                    s.density / (2 * kPi * kPi * sine), environment_group_};
+                    s.density / (2 * kPiF * kPiF * sine), environment_group_};
 }
 
 glm::vec2 Lights::square_of(const glm::vec3 &d) const {
     const float theta = std::atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y);
-    return {std::atan2(d.x, d.z) / (2 * kPi) + 0.5f, theta / kPi};
+    return {std::atan2(d.x, d.z) / (2 * kPiF) + 0.5f, theta / kPiF};
 }
 
 float Lights::environment_radiance(const glm::vec3 &direction) const {
@@ -109,7 +109,7 @@ float Lights::environment_pdf(const glm::vec3 &direction) const {
     if (!picture_)
         return 0;
     const float sine = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-    return sine > 0 ? environment_density_.density(square_of(direction)) / (2 * kPi * kPi * sine)
+    return sine > 0 ? environment_density_.density(square_of(direction)) / (2 * kPiF * kPiF * sine)
                     : 0.0f;
 }
 

@@ -15,7 +15,7 @@ namespace tsuya {
 struct detail::DocumentState {
     std::string file;
     toml::table root;
-    std::vector<Problem> problems;
+    Problems problems;
     std::map<const toml::table *, std::set<std::string, std::less<>>> asked;
     std::set<const toml::table *> open; ///< tables whose keys are all the author's
 
@@ -30,7 +30,7 @@ namespace {
 const toml::table &table_of(const void *table) { return *static_cast<const toml::table *>(table); }
 
 void find_unknown(const detail::DocumentState &state, const toml::table &table,
-                  std::vector<Problem> &problems) {
+                  Problems &problems) {
     const auto asked = state.asked.find(&table);
     if (asked == state.asked.end() || state.open.contains(&table))
         return;
@@ -38,8 +38,8 @@ void find_unknown(const detail::DocumentState &state, const toml::table &table,
     for (const auto &[key, node] : table) {
         const std::string name(key.str());
         if (!asked->second.contains(name))
-            problems.push_back({"unknown key '" + name + "'", state.place(key.source()),
-                                accepted_names(name, known)});
+            problems.add({"unknown key '" + name + "'", state.place(key.source()),
+                          accepted_names(name, known)});
         else if (const toml::table *inner = node.as_table())
             find_unknown(state, *inner, problems);
     }
@@ -64,12 +64,9 @@ Document::~Document() = default;
 Section Document::root() const { return Section(state_.get(), &state_->root); }
 
 void Document::finish() const {
-    std::vector<Problem> problems = state_->problems;
+    Problems problems = state_->problems;
     find_unknown(*state_, state_->root, problems);
-    if (problems.size() > kMaxProblems)
-        problems.resize(kMaxProblems);
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
 }
 
 bool Section::has(std::string_view key) const {
@@ -90,7 +87,14 @@ std::string Section::where(std::string_view key) const {
 }
 
 void Section::problem(std::string_view key, std::string what, std::string accepted) const {
-    state_->problems.push_back({std::move(what), where(key), std::move(accepted)});
+    state_->problems.add({std::move(what), where(key), std::move(accepted)});
+}
+
+void Section::problem(std::string_view key, const Error &error) const {
+    for (const Problem &p : error.problems()) {
+        const bool placed = p.where.find(':') != std::string::npos;
+        problem(key, (placed ? p.where + ": " : "") + p.what, p.accepted);
+    }
 }
 
 std::optional<std::string> Section::text(std::string_view key) const {

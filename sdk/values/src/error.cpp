@@ -42,6 +42,42 @@ Error::Error(Problem problem) : Error(std::vector<Problem>{std::move(problem)}) 
 Error::Error(std::vector<Problem> problems)
     : std::runtime_error(as_text(problems)), problems_(std::move(problems)) {}
 
+Error Error::at(const std::string &where) const {
+    std::vector<Problem> moved = problems_;
+    for (Problem &p : moved)
+        p.where = where;
+    return Error(std::move(moved));
+}
+
+Error Error::within(const std::string &where) const {
+    std::vector<Problem> moved = problems_;
+    for (Problem &p : moved)
+        if (!p.where.starts_with(where))
+            p.where = p.where.empty() ? where : where + ": " + p.where;
+    return Error(std::move(moved));
+}
+
+void Problems::add(Problem problem) {
+    if (!full())
+        problems_.push_back(std::move(problem));
+}
+
+void Problems::add(const Error &error) {
+    for (const Problem &p : error.problems())
+        add(p);
+}
+
+bool Problems::need(bool rule, std::string what, std::string where, std::string accepted) {
+    if (!rule)
+        add({std::move(what), std::move(where), std::move(accepted)});
+    return rule;
+}
+
+void Problems::throw_if_any() const {
+    if (!problems_.empty())
+        throw Error(problems_);
+}
+
 std::string nearest_name(std::string_view name, std::span<const std::string> known) {
     std::string best;
     std::size_t best_distance = std::max<std::size_t>(1, (name.size() + 1) / 3) + 1;
@@ -56,6 +92,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
 }
 
 std::string accepted_names(std::string_view name, std::span<const std::string> known) {
+    if (known.empty())
+        return "there is none to choose from";
     std::string text = "expected one of: ";
     for (std::size_t i = 0; i < known.size(); ++i)
         text += (i ? ", " : "") + known[i];

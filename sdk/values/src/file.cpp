@@ -32,20 +32,69 @@ std::filesystem::path temporary_name(const std::filesystem::path &file) {
     return name;
 }
 
-void write_file(const std::filesystem::path &file, std::string_view bytes) {
-    const std::filesystem::path part = temporary_name(file);
-    std::ofstream out(part, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    std::error_code code;
-    if (out)
-        std::filesystem::rename(part, file, code);
-    if (!out || code) {
-        const std::string reason = code ? code.message() : std::strerror(errno);
-        std::filesystem::remove(part, code);
-        throw Error({"the file cannot be written: " + reason, file.string(),
-                     "expected a folder that exists and may be written to"});
+std::string accepted_for_writing(int code) {
+    switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+        return "expected space on the disk";
+    case EFBIG:
+        return "expected a file system, and a limit, that allow a file of this size";
+    default:
+        return "expected a folder that exists and may be written to";
     }
+}
+
+void replace_file(const std::filesystem::path &temporary, const std::filesystem::path &file) {
+    std::error_code code;
+    std::filesystem::rename(temporary, file, code);
+    if (!code)
+        return;
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw Error({"the file cannot be written: " + code.message(), file.string(),
+                 accepted_for_writing(code.value())});
+}
+
+FileReplacement::FileReplacement(std::filesystem::path file)
+    : file_(std::move(file)), part_(temporary_name(file_)) {
+    errno = 0;
+    out_.open(part_, std::ios::binary);
+    if (!out_)
+        fail(errno);
+}
+
+FileReplacement::~FileReplacement() {
+    if (committed_)
+        return;
+    out_.close();
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+}
+
+void FileReplacement::write(std::string_view bytes) {
+    errno = 0;
+    if (!out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+        fail(errno);
+}
+
+void FileReplacement::commit() {
+    errno = 0;
+    out_.close();
+    if (!out_)
+        fail(errno);
+    committed_ = true; // the name is taken, or removed by replace_file
+    replace_file(part_, file_);
+}
+
+void FileReplacement::fail(int code) {
+    throw Error({std::string("the file cannot be written: ") + std::strerror(code), file_.string(),
+                 accepted_for_writing(code)});
+}
+
+void write_file(const std::filesystem::path &file, std::string_view bytes) {
+    FileReplacement replacement(file);
+    replacement.write(bytes);
+    replacement.commit();
 }
 
 } // namespace tsuya

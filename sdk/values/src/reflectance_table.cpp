@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -16,7 +15,6 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kColumns = {"theta_i_deg", "phi_i_deg",   "theta_r_deg",
                                                       "phi_r_deg",   "brdf_per_sr", "sigma_per_sr"};
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string_view trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(" \t\r");
@@ -43,7 +41,7 @@ class TableReader {
 
     ReflectanceTable read() {
         std::string_view rest = text_;
-        while (!rest.empty() && problems_.size() < kMaxProblems) {
+        while (!rest.empty() && !problems_.full()) {
             const std::string_view line = rest.substr(0, rest.find('\n'));
             rest.remove_prefix(std::min(rest.size(), line.size() + 1));
             ++line_;
@@ -51,8 +49,7 @@ class TableReader {
         }
         if (problems_.empty() && table_.rows.empty())
             problem("the table has no row", 1, "expected rows below the header line " + header());
-        if (!problems_.empty())
-            throw Error(std::move(problems_));
+        problems_.throw_if_any();
         return std::move(table_);
     }
 
@@ -151,14 +148,14 @@ class TableReader {
     }
 
     void problem(std::string what, std::size_t column, std::string accepted) {
-        problems_.push_back({std::move(what),
-                             name_ + ":" + std::to_string(line_) + ":" + std::to_string(column),
-                             std::move(accepted)});
+        problems_.add({std::move(what),
+                       name_ + ":" + std::to_string(line_) + ":" + std::to_string(column),
+                       std::move(accepted)});
     }
 
     std::string name_, text_;
     ReflectanceTable table_;
-    std::vector<Problem> problems_;
+    Problems problems_;
     std::size_t line_ = 0, columns_ = 0;
     bool seen_header_ = false;
 };
@@ -191,7 +188,7 @@ ReflectanceTable ReflectanceTable::normal_incidence() const {
 
 void check_table(const ReflectanceTable &table, const std::string &where) {
     constexpr double kFactor = 2, kSigmas = 5, kSame = 1e-9;
-    std::vector<Problem> problems;
+    Problems problems;
     const auto row_name = [](const ReflectanceRow &r) {
         const auto degrees = [](double angle) { return number_text(angle / kDegree, 6); };
         return "light (" + degrees(r.theta_i) + ", " + degrees(r.phi_i) + ") view (" +
@@ -199,10 +196,9 @@ void check_table(const ReflectanceTable &table, const std::string &where) {
     };
     const auto refuse = [&](const ReflectanceRow &r, const std::string &what,
                             const char *accepted) {
-        if (problems.size() < kMaxProblems)
-            problems.push_back({row_name(r) + ": " + what, where, accepted});
+        problems.add({row_name(r) + ": " + what, where, accepted});
     };
-    const double horizon = 0.5 * std::numbers::pi + kSame;
+    const double horizon = kPi / 2 + kSame;
     std::vector<ReflectanceRow> sorted = table.rows;
     for (const ReflectanceRow &r : sorted) {
         if (!(std::isfinite(r.brdf_per_sr) && r.brdf_per_sr >= 0 && r.sigma_per_sr >= 0))
@@ -213,8 +209,7 @@ void check_table(const ReflectanceTable &table, const std::string &where) {
             refuse(r, "the direction is not above the cloth",
                    "expected angles from the normal of 0 to 90 degrees");
     }
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
     const auto key = [](const ReflectanceRow &r) {
         const auto rounded = [](double angle) { return std::lround(angle / 1e-6); };
         return std::array{rounded(r.theta_i), r.theta_i > kSame ? rounded(r.phi_i) : 0,
@@ -233,8 +228,7 @@ void check_table(const ReflectanceTable &table, const std::string &where) {
                        number_text(b.brdf_per_sr, 6),
                    "expected repeats within a factor of 2, or a sigma_per_sr that explains them");
     }
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
 }
 
 ReflectanceTable read_reflectance_table(const std::filesystem::path &file) {

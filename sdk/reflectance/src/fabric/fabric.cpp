@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <locale>
-#include <numbers>
 #include <sstream>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/document.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -15,7 +15,6 @@ namespace tsuya {
 namespace {
 
 constexpr const char *kSchema = "tsuya-fabric 1";
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Spectrum read_spectrum(const Section &section, const char *key, double otherwise) {
     Spectrum spectrum = Spectrum::constant(otherwise);

@@ -1,13 +1,12 @@
 #include "tsuya/sdk/detail/filament_bed.h"
+#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tsuya {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kNodes = FilamentBed::kNodes;
 constexpr int kFlanks = 60; // parts of the half circle of a yarn's section
 // Distances of neighbouring axes over the diameter. Filaments: all between touching and this

@@ -6,14 +6,14 @@
 #include <numbers>
 #include <vector>
 
-#include "tables/disk.h"
 #include "models/facets.h"
+#include "tables/disk.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr double kLeastAlpha = 1e-4;
 constexpr float kSmallest = 1e-30f;
 
@@ -67,7 +67,7 @@ float GgxBrdf::facets(const glm::vec3 &to_light, const glm::vec3 &to_viewer) con
     const glm::vec3 h = to_light + to_viewer;
     const float x = h.x / alpha_weft_, y = h.y / alpha_warp_;
     const float t = glm::dot(h, h) / std::max(x * x + y * y + h.z * h.z, kSmallest);
-    return t * t / (kPi * alpha_weft_ * alpha_warp_);
+    return t * t / (kPiF * alpha_weft_ * alpha_warp_);
 }
 
 // cos (1 + 2 Lambda) of Smith's masking, [Heitz] Eq. 72

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "tables/fast_trig.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-constexpr float kHalfPi = 0.5f * kPi; // `a` of [Takeda] Eq. 15
+constexpr float kHalfPi = 0.5f * kPiF; // `a` of [Takeda] Eq. 15
 // Below it the limit of the quotient is exact to float.
 constexpr float kSmallSine = 1e-6f;
 
@@ -56,7 +56,7 @@ GreatCircle to_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     } else {
         c.slope = slope_behind(axis);
         // = slope * beta + pi theta_i/(a + theta_i), exact at beta = pi
-        c.beta0 = kPi - c.slope * (kPi - c.beta);
+        c.beta0 = kPiF - c.slope * (kPiF - c.beta);
     }
     const SineCosine turned = sine_cosine(c.beta0);
     c.sine_ratio = sine > kSmallSine ? turned.sine / sine : c.slope;
@@ -73,7 +73,7 @@ ViewOfBasic view_of_basic(const glm::vec3 &to_light, const glm::vec3 &basic) {
     const float sine = glm::length(across);
     const float beta0 = angle_of(sine, cosine);
     v.slope = beta0 <= kHalfPi ? slope_towards(axis) : slope_behind(axis);
-    const float beta = beta0 <= kHalfPi ? beta0 / v.slope : kPi - (kPi - beta0) / v.slope;
+    const float beta = beta0 <= kHalfPi ? beta0 / v.slope : kPiF - (kPiF - beta0) / v.slope;
     const SineCosine turned = sine_cosine(beta);
     const float ratio = sine > kSmallSine ? turned.sine / sine : 1 / v.slope;
     v.sine_ratio = 1 / std::max(ratio, 1e-12f);

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <vector>
 
-#include "tables/disk.h"
 #include "models/facets.h"
+#include "tables/disk.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-constexpr float kQuarterTurn = 0.25f * kPi; // the largest tilt that light from above shows
-constexpr float kSlopeSpan = kPi / 12;      // below it, where the slope of the tail is taken
+constexpr float kQuarterTurn = 0.25f * kPiF; // the largest tilt that light from above shows
+constexpr float kSlopeSpan = kPiF / 12;      // below it, where the slope of the tail is taken
 // Of the tail: it falls to 1/e within these tilts
-constexpr float kShortestTail = kPi / 60, kLongestTail = kPi / 6;
+constexpr float kShortestTail = kPiF / 60, kLongestTail = kPiF / 6;
 constexpr int kTableNodes = 241;     // quadrant; 0.24 degrees of tilt at the pole
 constexpr int kFullTableNodes = 361; // whole square
 constexpr int kDensityCells = 128;
@@ -102,7 +102,7 @@ HalfVectorBrdf::Terms HalfVectorBrdf::terms(const glm::vec3 &to_light,
     const float d = facets_.at(direction_of_disk(half.horizontal));
     // The smaller of the two limits bounds the albedo of both directions and stays reciprocal
     const float limited = std::min(albedo_.limit(to_light), albedo_.limit(to_viewer));
-    const float density = density_.density(square_of_disk(half.horizontal)) / kPi * half.z;
+    const float density = density_.density(square_of_disk(half.horizontal)) / kPiF * half.z;
     return {{d * fresnel(f0_, std::min(v_h, 1.0f)) * limited, 2 * half.z / v_h},
             density / (4 * v_h)};
 }

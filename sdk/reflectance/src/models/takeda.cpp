@@ -5,23 +5,24 @@
 #include <cmath>
 #include <vector>
 
-#include "tables/disk.h"
 #include "models/facets.h"
 #include "models/takeda_kernel.h"
+#include "tables/disk.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f, kHalfPi = 0.5f * kPi;
+constexpr float kHalfPi = 0.5f * kPiF;
 constexpr int kTableNodes = 161;     // quadrant; 0.5 degrees at the pole
 constexpr int kFullTableNodes = 181; // whole square; 0.9 degrees
 constexpr int kDensityCells = 96;
-constexpr int kPartsOfCell = 4;         // along it, where its mass is summed
-constexpr float kEvenShare = 0.01f;     // of a density: keeps it above 0 where rho0 is not
-constexpr float kHalfShare = 0.9f;      // of the lights, drawn by H; the rest is even
-constexpr float kTail = 12 * kPi / 180; // facets beyond 45 degrees fall to 1/e within this tilt
-constexpr float kDiskOfSquare = 0.25f;  // area of the unit square for an area of the disk
-constexpr float kEvenDensity = 0.5f / kPi;
+constexpr int kPartsOfCell = 4;          // along it, where its mass is summed
+constexpr float kEvenShare = 0.01f;      // of a density: keeps it above 0 where rho0 is not
+constexpr float kHalfShare = 0.9f;       // of the lights, drawn by H; the rest is even
+constexpr float kTail = 12 * kPiF / 180; // facets beyond 45 degrees fall to 1/e within this tilt
+constexpr float kDiskOfSquare = 0.25f;   // area of the unit square for an area of the disk
+constexpr float kEvenDensity = 0.5f / kPiF;
 
 // Masses of the cells of the square about the unit disk; what lies outside the disk has none.
 template <class Mass> Distribution2D tabulate_on_disk(const Mass &mass_at) {
@@ -175,7 +176,7 @@ std::optional<glm::vec3> TakedaBrdf::draw_view(const glm::vec3 &to_light,
     glm::vec3 basic = direction_of_disk(p);
     if (half_turn_) {
         const float tilt = angle_of(glm::length(glm::vec2(to_light)), to_light.z);
-        const bool wants_away = u.z < 0.5f - tilt / kPi;
+        const bool wants_away = u.z < 0.5f - tilt / kPiF;
         const bool is_away = basic.x * to_light.x + basic.y * to_light.y <= 0;
         if (wants_away != is_away)
             basic = {-basic.x, -basic.y, basic.z};

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "models/facets.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f, kHalfPi = 0.5f * kPi; // `a` of [Takeda] Eq. 15
-constexpr int kTableNodes = 161;                         // quadrant; 0.5 degrees at the pole
-constexpr int kFullTableNodes = 241;                     // whole square
+constexpr float kHalfPi = 0.5f * kPiF; // `a` of [Takeda] Eq. 15
+constexpr int kTableNodes = 161;       // quadrant; 0.5 degrees at the pole
+constexpr int kFullTableNodes = 241;   // whole square
 constexpr int kAlbedoSamples = 4096;
 
 } // namespace
@@ -27,7 +28,7 @@ glm::vec3 printed_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     // [Takeda] Eq. 15, divided by beta
     float ratio = kHalfPi / std::max(kHalfPi - tilt, 1e-7f);
     if (beta > kHalfPi - tilt)
-        ratio = (kHalfPi + kPi * tilt / beta) / (kHalfPi + tilt);
+        ratio = (kHalfPi + kPiF * tilt / beta) / (kHalfPi + tilt);
     const float theta_r = std::atan2(glm::length(glm::vec2(to_viewer)), to_viewer.z);
     const float phi_r = std::atan2(across, along);
     const float theta = kHalfPi - ratio * (kHalfPi - theta_r); // [Takeda] Eq. 16

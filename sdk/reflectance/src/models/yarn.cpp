@@ -7,13 +7,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include "tables/disk.h"
 #include "models/facets.h"
+#include "tables/disk.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr int kQuarterNodes = 113; // along a half axis: 0.2 degrees of tilt at the pole
 constexpr float kFocus = 0.6f;     // of the nodes, which are denser where the lobes are narrow
 constexpr int kAlbedoSamples = 512;
@@ -31,7 +31,7 @@ glm::vec2 even_of_systems(const YarnLobes &lobes) {
     };
     const double weft = filaments(0), both = weft + filaments(1);
     const auto share = static_cast<float>(both > 0 ? weft / both : 0.5);
-    return static_cast<float>(lobes.even) / kPi * glm::vec2(share, 1 - share);
+    return static_cast<float>(lobes.even) / kPiF * glm::vec2(share, 1 - share);
 }
 
 // The lobes of one system: yarn_lobe with what does not depend on the half vector made once.

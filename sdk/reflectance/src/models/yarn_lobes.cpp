@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -15,13 +14,13 @@
 
 #include "models/facets.h"
 #include "tsuya/sdk/accuracy.h"
-#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/detail/yarn_optics.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const glm::vec3 kUp(0, 0, 1); // to the light
 constexpr double kStep = 2 * kPi / 180;
 constexpr int kMiddle = kYarnSlopes / 2;
@@ -67,8 +66,8 @@ std::map<LightAngles, std::vector<ReflectanceRow>> oblique_rows(const Reflectanc
         if (std::none_of(rows.begin(), rows.end(),
                          [](const ReflectanceRow &row) { return row.brdf_per_sr > 0; }))
             throw Error({"the views under light at theta_i " +
-                             std::to_string(std::lround(angles.first * 180 / kPi)) + ", phi_i " +
-                             std::to_string(std::lround(angles.second * 180 / kPi)) +
+                             std::to_string(std::lround(angles.first / kDegree)) + ", phi_i " +
+                             std::to_string(std::lround(angles.second / kDegree)) +
                              " degrees are all 0",
                          where, "expected a value above 0 under every light"});
     return lights;

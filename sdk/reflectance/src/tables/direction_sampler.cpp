@@ -7,11 +7,11 @@
 #include <tbb/parallel_for.h>
 
 #include "tables/disk.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr int kRows = 10;    // over sqrt(cos theta)
 constexpr int kColumns = 24; // of azimuth, 15 degrees
 constexpr int kCells = 32;   // along the square of a density
@@ -27,8 +27,8 @@ struct Corner {
 std::array<Corner, 4> corners(const glm::vec3 &d) {
     const float y = std::sqrt(std::min(d.z, 1.0f)) * (kRows - 1);
     float phi = std::atan2(d.y, d.x);
-    phi += phi < 0 ? 2 * kPi : 0;
-    const float x = phi * (kColumns / (2 * kPi));
+    phi += phi < 0 ? 2 * kPiF : 0;
+    const float x = phi * (kColumns / (2 * kPiF));
     const int j = std::min(static_cast<int>(y), kRows - 2);
     const int i = std::min(static_cast<int>(x), kColumns - 1), next = (i + 1) % kColumns;
     const float t = y - static_cast<float>(j), s = std::min(x - static_cast<float>(i), 1.0f);
@@ -59,7 +59,7 @@ DirectionSampler::DirectionSampler(const Density &density)
     tbb::parallel_for(0, kRows * kColumns, [&](int k) {
         const float root = static_cast<float>(k / kColumns) / (kRows - 1);
         const float z = std::max(root * root, kLowest), s = std::sqrt(std::max(0.0f, 1 - z * z));
-        const float phi = static_cast<float>(k % kColumns) * (2 * kPi / kColumns);
+        const float phi = static_cast<float>(k % kColumns) * (2 * kPiF / kColumns);
         density_[static_cast<std::size_t>(k)] =
             tabulate(density, {s * std::cos(phi), s * std::sin(phi), z});
     });
@@ -82,7 +82,7 @@ float DirectionSampler::pdf(const glm::vec3 &fixed, const glm::vec3 &drawn) cons
     float sum = 0;
     for (const Corner &c : corners(fixed))
         sum += c.weight * density_[static_cast<std::size_t>(c.index)].density(point);
-    return sum / (2 * kPi);
+    return sum / (2 * kPiF);
 }
 
 } // namespace tsuya

@@ -4,11 +4,13 @@
 
 #include <cmath>
 
+#include "tsuya/sdk/angle.h"
+
 namespace tsuya {
 
 // Angle in [0, pi] of a point with sine >= 0; 0 at the origin.
 inline float angle_of(float sine, float cosine) {
-    constexpr float kPi = 3.14159265f, kHalfPi = 1.57079633f;
+    constexpr float kHalfPi = 1.57079633f;
     const float x = std::fabs(cosine);
     const float larger = sine > x ? sine : x, smaller = sine > x ? x : sine;
     const float t = larger > 0 ? smaller / larger : 0.0f, t2 = t * t;
@@ -23,7 +25,7 @@ inline float angle_of(float sine, float cosine) {
     p = p * t2 + 1.0f;
     float angle = t * p;
     angle = sine > x ? kHalfPi - angle : angle;
-    return cosine < 0 ? kPi - angle : angle;
+    return cosine < 0 ? kPiF - angle : angle;
 }
 
 struct SineCosine {
@@ -32,8 +34,7 @@ struct SineCosine {
 
 // For an angle in [0, pi]; the sine keeps its relative precision towards 0.
 inline SineCosine sine_cosine(float angle) {
-    constexpr float kPi = 3.14159265f;
-    const float rest = kPi - angle;
+    const float rest = kPiF - angle;
     const bool behind = rest < angle;
     const float x = behind ? rest : angle, x2 = x * x;
     float s = 2.60510774e-06f;

@@ -7,11 +7,11 @@
 
 #include "tables/azimuth.h"
 #include "tables/disk.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr int kBlocks = 24; // along the square of half vectors
 constexpr int kRows = 18;   // of fixed directions
 // Of fixed directions: 15 degrees where the model is mirrored, else 30
@@ -128,7 +128,7 @@ HalfVectorSampler::Node HalfVectorSampler::tabulate(const Model &model, float ev
         }
     for (const double m : mass)
         total += m;
-    const double seen = total * 4 * kPi / (kBlocks * kBlocks * probes * probes);
+    const double seen = total * 4 * kPiF / (kBlocks * kBlocks * probes * probes);
     const auto share = static_cast<float>(even / std::max(even + seen, 1e-30));
     return {{mass, kBlocks, kBlocks}, std::max(share, kLeastEvenDraws)};
 }
@@ -222,7 +222,7 @@ float HalfVectorSampler::pdf(const glm::vec3 &fixed, const glm::vec3 &half, floa
     const float within =
         blocks_[row / kParts * kBlocks + column / kParts].density[row % kParts][column % kParts];
     // dH/dL = 1 / (4 V.H); the disk of the horizontal part of H has the area element N.H dH
-    return (of_block * within * std::max(half.z, 0.0f) / (4 * facing) + even * drawn_cosine) / kPi;
+    return (of_block * within * std::max(half.z, 0.0f) / (4 * facing) + even * drawn_cosine) / kPiF;
 }
 
 std::size_t HalfVectorSampler::bytes() const {

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
 
 #include <tbb/parallel_for.h>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 constexpr double kRingTheta = 60 * kDegree; // of [Takeda] Figs. 26-27
 constexpr double kRingWidth = 0.01 * kDegree;
 constexpr double kHorizonCosine = 1e-9;

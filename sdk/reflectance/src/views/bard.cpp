@@ -9,20 +9,21 @@
 #include <Eigen/Dense>
 #include <tbb/parallel_for.h>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
 
 constexpr std::size_t kMinViews = 6;
-constexpr double kMinReach = 20 * std::numbers::pi / 180;
+constexpr double kMinReach = 20 * kDegree;
 // Values below this share of the peak, zeros among them, count as this share: log needs a floor.
 constexpr double kFloor = 1e-6;
 constexpr double kSameView = 1e-6;
-constexpr double kBright = 0.01;       // of the peak: darker views tell nothing of the symmetry
-constexpr double kContradiction = 0.2; // log10, root mean square: a factor of 1.6
-constexpr double kLargestAlbedo = 2;   // some slack for what lies beyond the views
-constexpr double kSteep = 10 * std::numbers::pi / 180; // views nearer to the normal have no azimuth
+constexpr double kBright = 0.01;        // of the peak: darker views tell nothing of the symmetry
+constexpr double kContradiction = 0.2;  // log10, root mean square: a factor of 1.6
+constexpr double kLargestAlbedo = 2;    // some slack for what lies beyond the views
+constexpr double kSteep = 10 * kDegree; // views nearer to the normal have no azimuth
 
 // The compactly supported C2 function of Wendland for up to three dimensions, [Wendland] phi_{3,1}.
 double kernel(double dx, double dy) {
@@ -77,7 +78,7 @@ void check_azimuths(const std::vector<BardView> &views, Symmetry symmetry,
         covered = period - gap;
     }
     const auto degrees = [](double angle) {
-        return std::to_string(std::lround(angle * 180 / std::numbers::pi)) + " degrees";
+        return std::to_string(std::lround(angle / kDegree)) + " degrees";
     };
     if (covered < whole / 3)
         throw Error({"the views cover " + degrees(covered) + " of azimuth out of " +
@@ -213,8 +214,7 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
     if (views_.size() < kMinViews || reach < kMinReach)
         throw Error({"the table has " + std::to_string(views_.size()) +
                          " views with light from straight above, the farthest " +
-                         std::to_string(std::lround(reach * 180 / std::numbers::pi)) +
-                         " degrees from the normal",
+                         std::to_string(std::lround(reach / kDegree)) + " degrees from the normal",
                      where,
                      "expected 6 or more rows with theta_i_deg = 0, some beyond 20 degrees"});
 

@@ -1,13 +1,12 @@
 #include "tsuya/sdk/accuracy.h"
+#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tsuya {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kRings = 360;            // of the counting grid: a quarter of a degree
 constexpr double kSameAngle = 1e-9;    // radians, against rounding
 constexpr double kKeptLight = 1e-6;    // a mirror image as near as this is the light itself

@@ -14,6 +14,8 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/error.h"
+
 namespace tsuya {
 
 namespace detail {
@@ -53,6 +55,9 @@ class Section {
 
     /// Notes a problem at a key.
     void problem(std::string_view key, std::string what, std::string accepted) const;
+    /// Notes the problems of an error at a key. One that has a place in a file of its own keeps it,
+    /// in front of what is wrong.
+    void problem(std::string_view key, const Error &error) const;
 
   private:
     friend class Document;

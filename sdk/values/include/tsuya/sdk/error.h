@@ -28,9 +28,32 @@ class Error : public std::runtime_error {
     /// \param problems at least one
     explicit Error(std::vector<Problem> problems);
     const std::vector<Problem> &problems() const noexcept { return problems_; }
+    /// The same problems, all at another place: for a caller who knows it better.
+    Error at(const std::string &where) const;
+    /// The same problems, `where: ` before the place of each that does not begin with it.
+    Error within(const std::string &where) const;
 
   private:
     std::vector<Problem> problems_;
+};
+
+/// Collects problems, to throw them together.
+class Problems {
+  public:
+    /// Notes a problem; those after the first kMaxProblems are dropped.
+    void add(Problem problem);
+    /// Notes all problems of an error.
+    void add(const Error &error);
+    /// Notes a problem unless the rule holds. \return the rule
+    bool need(bool rule, std::string what, std::string where, std::string accepted);
+    bool empty() const { return problems_.empty(); }
+    bool full() const { return problems_.size() >= kMaxProblems; }
+    const std::vector<Problem> &all() const { return problems_; }
+    /// Throws Error with all that were noted; returns where there are none.
+    void throw_if_any() const;
+
+  private:
+    std::vector<Problem> problems_{};
 };
 
 /// Thrown when the caller's stop flag was seen; what was done is kept by the caller.

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
+#include "tsuya/sdk/angle.h"
+
 namespace tsuya {
 
 /// How views may be mirrored about the yarn axes.
@@ -24,6 +28,9 @@ struct ReflectanceRow {
     double theta_r = 0, phi_r = 0;
     double brdf_per_sr = 0;  ///< without the cosine, >= 0
     double sigma_per_sr = 0; ///< standard error; 0 where unknown
+
+    glm::dvec3 to_light() const { return direction_of(theta_i, phi_i); }
+    glm::dvec3 to_viewer() const { return direction_of(theta_r, phi_r); }
 };
 
 /// Rows in any order, with the comment keys of the file (`instrument`, `date`, `provenance`...).

@@ -1,0 +1,182 @@
+// Errors, files, checkpoints and what else long work shares.
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/checkpoint.h"
+#include "tsuya/sdk/detail/hasher.h"
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+  protected:
+    Files() { fs::create_directories(folder_); }
+    ~Files() override { fs::remove_all(folder_); }
+    std::size_t entries() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+    const fs::path folder_ =
+        fs::temp_directory_path() / ("tsuya-files-test-" + std::to_string(getpid()));
+};
+
+template <class Work> Problem problem_of(Work &&work) {
+    try {
+        work();
+    } catch (const Error &error) {
+        return error.problems().at(0);
+    }
+    ADD_FAILURE() << "expected an Error";
+    return {};
+}
+
+/// Files of this process end at so many bytes while it lives.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &saved_);
+        const rlimit limit{bytes, saved_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        previous_ = std::signal(SIGXFSZ, SIG_IGN);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &saved_);
+        std::signal(SIGXFSZ, previous_);
+    }
+
+  private:
+    rlimit saved_{};
+    void (*previous_)(int) = nullptr;
+};
+
+TEST_F(Files, AFailedReplacementKeepsWhatStoodThere) {
+    const fs::path file = folder_ / "a.txt";
+    write_file(file, "old");
+    {
+        const FileSizeLimit limit(1000);
+        const Problem p = problem_of([&] { write_file(file, std::string(100'000, 'x')); });
+        EXPECT_EQ(p.where, file.string());
+        EXPECT_NE(p.accepted.find("of this size"), std::string::npos) << p.accepted;
+    }
+    EXPECT_EQ(read_file(file), "old");
+    EXPECT_EQ(entries(), 1u) << "no temporary file stays";
+}
+
+TEST_F(Files, AnAbandonedReplacementLeavesNothing) {
+    const fs::path file = folder_ / "a.txt";
+    {
+        FileReplacement replacement(file);
+        replacement.write("half");
+    }
+    EXPECT_EQ(entries(), 0u);
+}
+
+TEST(FileErrors, SayWhatWouldHelp) {
+    EXPECT_EQ(accepted_for_writing(ENOSPC), "expected space on the disk");
+    EXPECT_NE(accepted_for_writing(ENOENT).find("folder that exists"), std::string::npos);
+    const Problem p = problem_of([] { write_file("/nonexistent/folder/a", ""); });
+    EXPECT_NE(p.accepted.find("folder that exists"), std::string::npos) << p.accepted;
+}
+
+TEST(FileErrors, AFullDiskIsNamed) {
+    if (!fs::exists("/dev/full"))
+        GTEST_SKIP() << "tsuya: skipped: no /dev/full here";
+    std::ofstream full("/dev/full", std::ios::binary);
+    errno = 0;
+    full << std::string(100'000, 'x') << std::flush;
+    EXPECT_FALSE(full);
+    EXPECT_EQ(accepted_for_writing(errno), "expected space on the disk");
+}
+
+TEST_F(Files, ACheckpointReadsBackAndRefusesOthers) {
+    const fs::path file = folder_ / "a.checkpoint";
+    const std::vector<float> sums{1, 2, 3};
+    detail::CheckpointWriter out(file, "test 1", 7);
+    out.value(42);
+    out.array(std::span(sums));
+    out.commit();
+
+    detail::CheckpointReader in(file, "test 1", 7);
+    int value = 0;
+    std::vector<float> found(3);
+    in.value(value);
+    in.array(std::span(found));
+    in.finish();
+    EXPECT_EQ(value, 42);
+    EXPECT_EQ(found, sums);
+
+    using Reader = detail::CheckpointReader;
+    EXPECT_NE(problem_of([&] { Reader(file, "test 1", 8); }).what.find("other input"),
+              std::string::npos);
+    EXPECT_NE(problem_of([&] { Reader(file, "rest 1", 7); }).what.find("no checkpoint"),
+              std::string::npos);
+    EXPECT_NE(problem_of([&] { Reader(file, "test 1", 7).finish(); }).what.find("longer"),
+              std::string::npos);
+    fs::resize_file(file, fs::file_size(file) - 1);
+    EXPECT_NE(problem_of([&] {
+                  Reader cut(file, "test 1", 7);
+                  cut.value(value);
+                  cut.array(std::span(found));
+              }).what.find("cut off"),
+              std::string::npos);
+}
+
+TEST(Hasher, TellsNeighboursApart) {
+    const auto of = [](auto... texts) {
+        detail::Hasher h;
+        (h.text(texts), ...);
+        return h.result();
+    };
+    EXPECT_EQ(of("ab", "c"), of("ab", "c"));
+    EXPECT_NE(of("ab", "c"), of("a", "bc"));
+    EXPECT_NE(of("ab"), of("ba"));
+    // [FNV] 64 bits, of the byte 'a', from the published test vectors
+    detail::Hasher h;
+    h.value('a');
+    EXPECT_EQ(h.result(), 0xaf63dc4c8601ec8cull);
+}
+
+TEST(Problems, AreCollectedUpToTheLimit) {
+    Problems problems;
+    problems.throw_if_any();
+    EXPECT_TRUE(problems.need(true, "fine", "here", ""));
+    for (int i = 0; i < 100; ++i)
+        problems.need(false, "wrong", "place " + std::to_string(i), "right");
+    EXPECT_TRUE(problems.full());
+    try {
+        problems.throw_if_any();
+        ADD_FAILURE() << "expected an Error";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems().size(), kMaxProblems);
+        EXPECT_EQ(error.at("there").problems()[3].where, "there");
+        EXPECT_EQ(error.within("a.toml").problems()[3].where, "a.toml: place 3");
+        EXPECT_EQ(error.within("place").problems()[3].where, "place 3");
+    }
+    EXPECT_EQ(accepted_names("x", {}), "there is none to choose from");
+}
+
+TEST(Angles, TheHorizonIsNotAboveIt) {
+    for (const double theta : {90 * kDegree, kPi / 2, std::numbers::pi / 2})
+        for (const double phi : {0.0, 1.0, -2.0})
+            EXPECT_EQ(direction_of(theta, phi).z, 0.0);
+    EXPECT_GT(direction_of(89.999999 * kDegree, 0).z, 0.0);
+    EXPECT_NEAR(glm::length(direction_of(0.7, 2.1) - glm::dvec3(std::sin(0.7) * std::cos(2.1),
+                                                                std::sin(0.7) * std::sin(2.1),
+                                                                std::cos(0.7))),
+                0, 1e-15);
+}
+
+} // namespace
+} // namespace tsuya::test
