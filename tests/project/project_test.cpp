@@ -3,6 +3,7 @@
 #include "project/comments.h"
 #include "project/documents.h"
 #include "project/includes.h"
+#include "project/links.h"
 #include "project/words.h"
 
 #include <gtest/gtest.h>
@@ -43,6 +44,13 @@ TEST(Repository, CitesWhatReferencesDefine) {
 
 TEST(Repository, DocumentsRepeatCompiledCode) {
     const Findings findings = check_documents(repository());
+    EXPECT_TRUE(findings.empty()) << as_text(findings);
+}
+
+TEST(Repository, LinksLeadSomewhere) {
+    const Findings findings = check_links(repository(), [](const std::string &path) {
+        return std::filesystem::exists(repository_root() / path);
+    });
     EXPECT_TRUE(findings.empty()) << as_text(findings);
 }
 
@@ -209,6 +217,24 @@ TEST(Documents, EverythingElseIsFlagged) {
     };
     for (const auto &[announcement, block] : bad)
         EXPECT_EQ(documented(announcement, block).size(), 1u) << announcement << '\n' << block;
+}
+
+TEST(Links, LeadToFilesAndFolders) {
+    const auto count = [](const std::string &line) {
+        return check_links(one_line("sdk/docs/a.md", line),
+                           [](const std::string &path) {
+                               return path == "README.md" || path == "sdk/docs/b.svg" ||
+                                      path == "sdk";
+                           })
+            .size();
+    };
+    for (const std::string good :
+         {"[a](../../README.md)", "[a](../../README.md#b)", "![a](b.svg)", "[a](..)", "[a](#b)",
+          "[a](https://a.org/b)", "`[a](missing.md)`"})
+        EXPECT_EQ(count(good), 0u) << good;
+    for (const std::string bad : {"[a](README.md)", "![a](missing.svg), [b](b.svg)",
+                                  "[`a`](missing.md)", "[a](../../../README.md)"})
+        EXPECT_EQ(count(bad), 1u) << bad;
 }
 
 TEST(Words, MachinesAreFlagged) {
