@@ -29,8 +29,8 @@ void compare(int samples) {
     for (const char *name : {"D65", "LED-B3", "HP4", "A"})
         lamps.push_back({name, lamp(name)});
     for (const LampDifference &d : compare_lamps(result.image, lamps))
-        std::printf("%-7s to %-7s CIEDE2000 %.2f in the mean, %.2f for the worst 5 %%\n",
-                    d.first.c_str(), d.second.c_str(), d.mean, d.p95);
+        std::printf("%-7s to %-7s CIEDE2000 %.2f mean, %.2f 95th percentile\n", d.first.c_str(),
+                    d.second.c_str(), d.mean, d.p95);
 }
 // [/doc:compare]
 
