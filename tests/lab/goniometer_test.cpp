@@ -159,6 +159,9 @@ TEST(Goniometer, RefusesWhatItCannotMeasure) {
     EXPECT_EQ(where(good, {}, few_photons()), "directions");
     EXPECT_EQ(where(good, {.pairs = {{0, 0, 90 * kDegree, 0}}}, few_photons()),
               "directions.pairs[0]");
+    // By rounding below 90 degrees, but on the horizon: its values would be divided by nearly 0
+    EXPECT_EQ(where(good, {.pairs = {{0, 0, 90 * kDegree - 1e-13, 0}}}, few_photons()),
+              "directions.pairs[0]");
     EXPECT_EQ(where(good, {.pairs = {{-0.1, 0, 0, 0}}}, few_photons()), "directions.pairs[0]");
     EXPECT_EQ(where(good, two_lights(), {.photons = 0}), "settings.photons");
     EXPECT_EQ(where(good, two_lights(), {.error = -1}), "settings.error");

@@ -15,10 +15,11 @@ bool ends_with_any(std::string_view path, std::initializer_list<std::string_view
                        [&](std::string_view ending) { return path.ends_with(ending); });
 }
 
-bool is_left_out(const std::filesystem::path &folder) {
+/// `.git` is a folder in a clone and a file in a further work tree.
+bool is_left_out(const std::filesystem::path &entry) {
     static constexpr std::array<std::string_view, 5> kNames{".git", ".cache", "build", "out",
                                                             "__pycache__"};
-    const std::string name = folder.filename().string();
+    const std::string name = entry.filename().string();
     return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
@@ -28,8 +29,10 @@ std::vector<TextFile> read_repository(const std::filesystem::path &root) {
     std::vector<TextFile> files;
     const std::filesystem::recursive_directory_iterator end;
     for (auto entry = std::filesystem::recursive_directory_iterator(root); entry != end; ++entry) {
-        if (entry->is_directory() && is_left_out(entry->path()))
+        if (is_left_out(entry->path())) {
             entry.disable_recursion_pending();
+            continue;
+        }
         // Others may be editing: a file can be gone by now.
         std::error_code gone;
         if (!entry->is_regular_file(gone) || entry->file_size(gone) > kMaxTextBytes)

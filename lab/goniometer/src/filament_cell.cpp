@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::lab {
 namespace {
-
-using std::numbers::pi;
 
 constexpr double kLongest = 16;    // cone, in its radii: long ones make loose bounding boxes
 constexpr int kMostParts = 256;    // of one segment of a path
@@ -48,7 +47,7 @@ class PeriodicPoints {
         if (filament_.turn.empty())
             return 0;
         const double next = filament_.turn[(i + 1) % filament_.turn.size()];
-        return std::remainder(next - filament_.turn[i], 2 * pi);
+        return std::remainder(next - filament_.turn[i], 2 * kPi);
     }
     double turn(std::size_t i) const { return filament_.turn.empty() ? 0 : filament_.turn[i]; }
 
@@ -89,7 +88,7 @@ void thin(Path &path, double most_turn) {
     for (std::size_t i = 1; i < path.station.size(); ++i) {
         const Path::Station &last = kept.back(), &s = path.station[i];
         const Path::Station &next = path.station[(i + 1) % path.station.size()];
-        const double twist = std::abs(std::remainder(next.turn - last.turn, 2 * pi));
+        const double twist = std::abs(std::remainder(next.turn - last.turn, 2 * kPi));
         const double length = glm::distance(s.position, last.position);
         if (angle_between(last.tangent, next.tangent) > most_turn || twist > kMostTwist ||
             length > 0.5 * kLongest * path.radius)
@@ -180,8 +179,8 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
         const double corner = std::clamp(corner_rounding, kSharpest, 1.0);
         const int each = count / 3;
         for (int i = 0; i < 3 * each; ++i) {
-            const double middle = 2 * pi / 3 * (i / each);
-            const double a = middle + pi / 3 * (2.0 * (i % each) / (each - 1) - 1);
+            const double middle = 2 * kPi / 3 * (i / each);
+            const double a = middle + kPi / 3 * (2.0 * (i % each) / (each - 1) - 1);
             const glm::dvec2 n{std::cos(a), std::sin(a)};
             const glm::dvec2 centre{std::cos(middle), std::sin(middle)};
             result.push_back({(1 - corner) * centre + corner * n, n});
@@ -193,7 +192,7 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
     const double depth =
         section == FilamentSection::trilobal ? kDeepest * (1 - corner_rounding) : 0;
     for (int i = 0; i < count; ++i) {
-        const double a = 2 * pi * i / count;
+        const double a = 2 * kPi * i / count;
         const double r = 1 - 0.5 * depth * (1 - std::cos(3 * a)),
                      dr = -1.5 * depth * std::sin(3 * a);
         const glm::dvec2 radial{std::cos(a), std::sin(a)}, ahead{-std::sin(a), std::cos(a)};

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include <embree3/rtcore.h>
 
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/embree_ray.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -141,32 +142,13 @@ FilamentScene::Leg FilamentScene::leg(glm::vec3 &origin, const glm::vec3 &direct
     return {std::min(x, y), end, x <= y ? 0 : 1};
 }
 
-namespace {
-
-RTCRay make_ray(const glm::vec3 &origin, const glm::vec3 &direction, float length) {
-    return {.org_x = origin.x,
-            .org_y = origin.y,
-            .org_z = origin.z,
-            .tnear = 0,
-            .dir_x = direction.x,
-            .dir_y = direction.y,
-            .dir_z = direction.z,
-            .time = 0,
-            .tfar = length,
-            .mask = ~0u,
-            .id = 0,
-            .flags = 0};
-}
-
-} // namespace
-
 Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Meeting &meeting) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     for (int step = 0; step < kMostSteps; ++step) {
         const Leg part = leg(origin, direction);
         RTCRayHit query;
-        query.ray = make_ray(origin, direction, part.length());
+        query.ray = tsuya::detail::make_ray<RTCRay>(origin, direction, part.length());
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(state_->scene, &context, &query);
@@ -198,7 +180,7 @@ bool FilamentScene::escapes(glm::vec3 origin, const glm::vec3 &direction) const 
     rtcInitIntersectContext(&context);
     for (int step = 0; step < kMostSteps; ++step) {
         const Leg part = leg(origin, direction);
-        RTCRay ray = make_ray(origin, direction, part.length());
+        RTCRay ray = tsuya::detail::make_ray<RTCRay>(origin, direction, part.length());
         rtcOccluded1(state_->scene, &context, &ray);
         if (ray.tfar < 0)
             return false;
@@ -218,7 +200,7 @@ Meeting FilamentScene::around(const Meeting &meeting, float u) const {
         const glm::vec3 tangent = glm::normalize(
             glm::mix(cell_.cones.tangent[first], cell_.cones.tangent[first + 1], meeting.along));
         const glm::vec3 side = glm::cross(meeting.normal, tangent);
-        const float angle = 2 * std::numbers::pi_v<float> * u;
+        const float angle = 2 * kPiF * u;
         result.normal = meeting.normal * std::cos(angle) + side * std::sin(angle);
         result.point = glm::vec3(centre) + centre.w * result.normal;
         return result;

@@ -4,21 +4,18 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include <immintrin.h>
-
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "filament_scene.h"
 #include "gonio_sums.h"
 #include "photon_walk.h"
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/flush_denormals.h"
+#include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -29,28 +26,10 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kBatchesPerRound = 16; // of a light, between looks at its error
 constexpr double kSaveEvery = 30;              // seconds
 
-// Embree is slow with denormal numbers.
-class FlushDenormals {
-  public:
-    FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
-    ~FlushDenormals() { _mm_setcsr(saved_); }
-    FlushDenormals(const FlushDenormals &) = delete;
-    FlushDenormals &operator=(const FlushDenormals &) = delete;
-
-  private:
-    unsigned saved_;
-};
-
-glm::vec3 direction(double theta, double phi) {
-    return glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                     std::cos(theta));
-}
-
 void check_settings(const GoniometerSettings &s) {
-    std::vector<Problem> problems;
+    Problems problems;
     const auto expect = [&](bool good, const char *where, const char *what, const char *accepted) {
-        if (!good)
-            problems.push_back({what, where, accepted});
+        problems.need(good, what, where, accepted);
     };
     expect(s.photons > 0, "settings.photons", "there are no photons", "expected at least 1");
     expect(s.error >= 0 && s.error < 1, "settings.error", "the error is out of range",
@@ -67,43 +46,45 @@ void check_settings(const GoniometerSettings &s) {
            "the turn per segment is out of range", "expected 0.0001 to 1 radian");
     expect(s.section_points >= 12 && s.section_points <= 256, "settings.section_points",
            "the number of points of a section is out of range", "expected 12 to 256");
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
 }
 
 void check_optics(const FilamentRepeat &repeat) {
+    Problems problems;
     for (std::size_t i = 0; i < repeat.optics.size(); ++i) {
         const FilamentOptics &o = repeat.optics[i];
         const std::string where = "repeat.optics[" + std::to_string(i) + "].";
-        if (!(o.surface_roughness >= 0.005 && o.surface_roughness <= 0.5))
-            throw Error({"the roughness is out of range", where + "surface_roughness",
-                         "expected 0.005 to 0.5 radians"});
-        if (!(o.refractive_index >= 1 && std::isfinite(o.refractive_index)))
-            throw Error({"the refractive index is out of range", where + "refractive_index",
-                         "expected 1 or more"});
-        if (!(o.transmission >= 0 && o.transmission <= 1))
-            throw Error(
-                {"the transmission is out of range", where + "transmission", "expected 0 to 1"});
-        if (!(o.corner_rounding >= 0 && o.corner_rounding <= 1))
-            throw Error({"the rounding of the corners is out of range", where + "corner_rounding",
-                         "expected 0 to 1"});
+        problems.need(o.surface_roughness >= 0.005 && o.surface_roughness <= 0.5,
+                      "the roughness is out of range", where + "surface_roughness",
+                      "expected 0.005 to 0.5 radians");
+        problems.need(o.refractive_index >= 1 && std::isfinite(o.refractive_index),
+                      "the refractive index is out of range", where + "refractive_index",
+                      "expected 1 or more");
+        problems.need(o.transmission >= 0 && o.transmission <= 1,
+                      "the transmission is out of range", where + "transmission",
+                      "expected 0 to 1");
+        problems.need(o.corner_rounding >= 0 && o.corner_rounding <= 1,
+                      "the rounding of the corners is out of range", where + "corner_rounding",
+                      "expected 0 to 1");
     }
+    problems.throw_if_any();
 }
 
 void check_directions(const Directions &directions) {
     if (directions.pairs.empty())
         throw Error({"there is no direction to measure", "directions", "expected at least one"});
-    std::vector<Problem> problems;
-    const auto is_polar = [](double theta) { return theta >= 0 && theta < std::numbers::pi / 2; };
-    for (std::size_t i = 0; i < directions.pairs.size() && problems.size() < kMaxProblems; ++i) {
+    Problems problems;
+    const auto is_above = [](double theta, double phi) {
+        return theta >= 0 && theta < kPi / 2 && direction_of(theta, phi).z > 0;
+    };
+    for (std::size_t i = 0; i < directions.pairs.size() && !problems.full(); ++i) {
         const DirectionPair &p = directions.pairs[i];
-        if (!is_polar(p.theta_i) || !is_polar(p.theta_r) || !std::isfinite(p.phi_i + p.phi_r))
-            problems.push_back({"an angle is out of range",
-                                "directions.pairs[" + std::to_string(i) + "]",
-                                "expected theta from 0 and below 90 degrees, and a finite phi"});
+        problems.need(is_above(p.theta_i, p.phi_i) && is_above(p.theta_r, p.phi_r) &&
+                          std::isfinite(p.phi_i + p.phi_r),
+                      "an angle is out of range", "directions.pairs[" + std::to_string(i) + "]",
+                      "expected theta from 0 and below 90 degrees, and a finite phi");
     }
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
 }
 
 class Goniometer {
@@ -167,10 +148,11 @@ void Goniometer::group_by_light() {
     for (Group &group : groups_) {
         std::vector<glm::vec3> views;
         for (const std::size_t row : group.rows)
-            views.push_back(
-                direction(directions_.pairs[row].theta_r, directions_.pairs[row].phi_r));
+            views.emplace_back(
+                direction_of(directions_.pairs[row].theta_r, directions_.pairs[row].phi_r));
         lights_.push_back({0, Sums(views.size())});
-        group.views.emplace(direction(group.theta, group.phi), std::move(views), surfaces_);
+        group.views.emplace(glm::vec3(direction_of(group.theta, group.phi)), std::move(views),
+                            surfaces_);
     }
 }
 
@@ -199,7 +181,7 @@ bool Goniometer::round() {
         Task &task = tasks[t];
         if (progress_.stopped() || out_of_time())
             return;
-        const FlushDenormals flush;
+        const tsuya::detail::FlushDenormals flush;
         task.sums = Sums(groups_[task.light].rows.size());
         const Random random(settings_.seed, static_cast<std::uint32_t>(task.light),
                             static_cast<std::uint32_t>(task.batch));
@@ -301,16 +283,10 @@ Measurement measure(const FilamentRepeat &repeat, const Directions &directions,
     check_directions(directions);
     check_repeat(repeat, "repeat");
     check_optics(repeat);
-    const std::size_t threads = settings.threads > 0
-                                    ? static_cast<std::size_t>(settings.threads)
-                                    : static_cast<std::size_t>(tbb::info::default_concurrency());
-    // More threads than cores must be allowed before an arena can have them
-    const tbb::global_control limit(
-        tbb::global_control::max_allowed_parallelism,
-        std::max(threads, static_cast<std::size_t>(tbb::info::default_concurrency())));
-    tbb::task_arena arena(static_cast<int>(threads));
     Measurement result;
-    arena.execute([&] { result = Goniometer(repeat, directions, settings, progress).run(); });
+    tsuya::detail::run_with_threads(settings.threads, [&] {
+        result = Goniometer(repeat, directions, settings, progress).run();
+    });
     return result;
 }
 

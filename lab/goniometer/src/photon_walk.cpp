@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/frame.h"
 
 namespace tsuya::lab {
 namespace {
@@ -24,22 +26,6 @@ std::uint32_t every_second_bit(std::uint32_t x) {
     x = (x | x >> 4) & 0x00ff00ffu;
     return (x | x >> 8) & 0x0000ffffu;
 }
-
-// Axes about a normal.
-struct Basis {
-    glm::vec3 x, y, z;
-
-    explicit Basis(const glm::vec3 &n) : z(n) {
-        // [Duff] Listing 3
-        const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-        x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-        y = {b, sign + n.y * n.y * a, -n.y};
-    }
-    glm::vec3 to_local(const glm::vec3 &v) const {
-        return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)};
-    }
-    glm::vec3 to_world(const glm::vec3 &v) const { return x * v.x + y * v.y + z * v.z; }
-};
 
 class Walker {
   public:
@@ -66,7 +52,7 @@ class Walker {
     // Adds energy per solid angle that leaves a meeting towards a view, if the view is not hidden.
     void see(const Meeting &m, std::uint32_t view, double per_sr);
     // What the views see of a reflection; `from` in the surface's frame
-    void connect(const Meeting &m, const Basis &basis, const glm::vec3 &from, bool first,
+    void connect(const Meeting &m, const Frame &frame, const glm::vec3 &from, bool first,
                  double energy);
     // What the views see of light that comes out
     void connect_exit(const Meeting &m, double energy);
@@ -92,7 +78,7 @@ void Walker::see(const Meeting &m, std::uint32_t view, double per_sr) {
         seen_.push_back({view, per_sr / to.z});
 }
 
-void Walker::connect(const Meeting &m, const Basis &basis, const glm::vec3 &from, bool first,
+void Walker::connect(const Meeting &m, const Frame &frame, const glm::vec3 &from, bool first,
                      double energy) {
     const RoughSurface &surface = surfaces_[m.system];
     const auto views = static_cast<float>(light_.to_viewer.size());
@@ -105,9 +91,9 @@ void Walker::connect(const Meeting &m, const Basis &basis, const glm::vec3 &from
     }
     const ViewTree::Choice choice =
         first ? light_.by_half[m.system].sample(m.normal, random_)
-              : light_.by_mirror[m.system].sample(basis.to_world({-from.x, -from.y, from.z}),
+              : light_.by_mirror[m.system].sample(frame.to_world({-from.x, -from.y, from.z}),
                                                   random_);
-    const glm::vec3 to = basis.to_local(light_.to_viewer[choice.index]);
+    const glm::vec3 to = frame.to_local(light_.to_viewer[choice.index]);
     double value = surface.single_per_sr(from, to) / (choice.chance * (1 - multiple));
     // Of views that see next to nothing, only some are worth a ray
     const double dim = kDim * views;
@@ -129,24 +115,24 @@ void Walker::connect_exit(const Meeting &m, double energy) {
 
 bool Walker::scatter(Meeting &meeting, glm::vec3 &direction, bool first, double &energy) {
     const RoughSurface &surface = surfaces_[meeting.system];
-    const Basis basis(meeting.normal);
-    glm::vec3 from = basis.to_local(-direction);
+    const Frame frame = make_frame(meeting.normal);
+    glm::vec3 from = frame.to_local(-direction);
     from.z = std::max(from.z, kLeastCosine);
-    connect(meeting, basis, from, first, energy);
+    connect(meeting, frame, from, first, energy);
     const RoughSurface::Reflection reflection = surface.sample(from, random_);
     const double enters = (1 - reflection.weight) * surface.transmission();
     const double all = reflection.weight + enters;
-    direction = basis.to_world(reflection.direction);
+    direction = frame.to_world(reflection.direction);
     if (enters > 0) {
         const Meeting exit = scene_.around(meeting, random_.unit());
         connect_exit(exit, energy * enters);
         if (random_.unit() * all >= reflection.weight) {
             const double mu = surface.exit().sample(random_);
             const double r = std::sqrt(std::max(0.0, 1 - mu * mu));
-            const double phi = 2 * std::numbers::pi * random_.unit();
+            const double phi = 2 * kPi * random_.unit();
             meeting = exit;
-            direction =
-                Basis(exit.normal).to_world(glm::vec3(r * std::cos(phi), r * std::sin(phi), mu));
+            direction = make_frame(exit.normal)
+                            .to_world(glm::vec3(r * std::cos(phi), r * std::sin(phi), mu));
         }
     }
     energy *= all;

@@ -3,9 +3,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include <glm/glm.hpp>
+
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::lab {
 
@@ -39,7 +40,7 @@ class Random {
     // Two independent standard normal numbers
     glm::vec2 normal() {
         const float radius = std::sqrt(-2 * std::log(open_unit()));
-        const float angle = 2 * std::numbers::pi_v<float> * unit();
+        const float angle = 2 * kPiF * unit();
         return {radius * std::cos(angle), radius * std::sin(angle)};
     }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "tsuya/sdk/angle.h"
+
 namespace tsuya::lab {
 namespace {
-
-using std::numbers::pi;
 
 constexpr std::size_t kNodes = 128;    // of a lobe's table
 constexpr double kSmoothCotangent = 4; // of a direction whose shadowing is below 1e-8
@@ -36,7 +36,7 @@ CosineLobe::CosineLobe(std::vector<double> g) : g_(std::move(g)) {
         const double x = (i + 0.5) / kSteps;
         integral_ += value(x * x) * x * x * 2 * x;
     }
-    integral_ *= 2 * pi / kSteps;
+    integral_ *= 2 * kPi / kSteps;
     scale_ = integral_ > 0 ? 1 / integral_ : 0;
 }
 
@@ -81,14 +81,14 @@ double RoughSurface::lambda(double mu) const {
         return 0;
     // [Heitz] Eq. 64
     const double a = mu / (std::numbers::sqrt2 * slope_ * sine);
-    return std::max(0.0, 0.5 * (std::exp(-a * a) / (a * std::sqrt(pi)) - std::erfc(a)));
+    return std::max(0.0, 0.5 * (std::exp(-a * a) / (a * std::sqrt(kPi)) - std::erfc(a)));
 }
 
 glm::vec2 RoughSurface::visible_slopes(double mu, Random &random) const {
     // The density of normal slopes times max(0, c + k z): drawn from that of normal(z) (c + k z+),
     // which is never smaller.
     const double c = mu, k = slope_ * std::sqrt(std::max(0.0, 1 - mu * mu));
-    const double half_mean = k / std::sqrt(2 * pi);
+    const double half_mean = k / std::sqrt(2 * kPi);
     for (;;) {
         const glm::vec2 z = random.normal();
         if (random.unit() * (c + half_mean) >= c)
@@ -115,7 +115,7 @@ glm::dvec2 RoughSurface::single_albedo(double mu) const {
             const double up = 2 * cosine * m.z - mu;
             if (up <= 0)
                 continue;
-            const double density = std::exp(-0.5 * glm::dot(z, z)) / pi; // of both halves
+            const double density = std::exp(-0.5 * glm::dot(z, z)) / kPi; // of both halves
             const double seen = density * facing / (mu * (1 + own + lambda(up)));
             sum += seen * glm::dvec2(1, fresnel(cosine, index_));
         }
@@ -137,7 +137,7 @@ RoughSurface::Reflection RoughSurface::sample(const glm::vec3 &from, Random &ran
             return {to, fresnel(cosine, index_)};
     }
     const double mu_to = lost_.sample(random);
-    const double r = std::sqrt(1 - mu_to * mu_to), phi = 2 * pi * random.unit();
+    const double r = std::sqrt(1 - mu_to * mu_to), phi = 2 * kPi * random.unit();
     return {glm::vec3(r * std::cos(phi), r * std::sin(phi), mu_to),
             fresnel(mu, index_) * fresnel(mu_to, index_)};
 }
@@ -148,7 +148,7 @@ double RoughSurface::single_per_sr(const glm::vec3 &from, const glm::vec3 &to) c
     const glm::dvec3 h = glm::normalize(glm::dvec3(from) + glm::dvec3(to));
     const double cosine2 = h.z * h.z, variance = slope_ * slope_;
     const double d = std::exp(-(1 - cosine2) / (cosine2 * 2 * variance)) /
-                     (2 * pi * variance * cosine2 * cosine2);
+                     (2 * kPi * variance * cosine2 * cosine2);
     const double g = 1 / (1 + lambda(from.z) + lambda(to.z));
     // [Walter] Eq. 20, times the cosine of `to`
     return fresnel(glm::dot(glm::dvec3(from), h), index_) * d * g / (4 * from.z);

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "filament_scene.h"
 #include "random.h"
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -33,11 +31,9 @@ const glm::vec3 kGround{0.75f, 0.8f, 0.85f}; // behind the cloth
 const glm::vec3 kInk{0.03f}, kPaper{0.9f}, kFrame{0.75f, 0.1f, 0.05f};
 
 void check(const WeavePictureSettings &s) {
-    std::vector<Problem> problems;
-    const auto expect = [&](bool good, const char *name, const char *accepted) {
-        if (!good)
-            problems.push_back({std::string(name) + " is out of range",
-                                std::string("settings.") + name, accepted});
+    Problems problems;
+    const auto expect = [&](bool good, const std::string &name, const char *accepted) {
+        problems.need(good, name + " is out of range", "settings." + name, accepted);
     };
     expect(s.width >= 16 && s.width <= 8192, "width", "expected 16 to 8192 pixels");
     expect(s.height >= 16 && s.height <= 8192, "height", "expected 16 to 8192 pixels");
@@ -48,8 +44,7 @@ void check(const WeavePictureSettings &s) {
     expect(side >= 1 && side <= 32 && side * side == s.samples_per_pixel, "samples_per_pixel",
            "expected a square number from 1 to 1024");
     expect(s.threads >= 0, "threads", "expected 0 (all) or more");
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
 }
 
 // What a yarn is drawn with: its transmission, lifted off black.
@@ -107,7 +102,7 @@ glm::vec3 Painter::shade(const Meeting &meeting, const glm::vec4 &dice) const {
     const glm::vec3 origin = meeting.point + kOffset * meeting.normal;
     // The lamp, through one point of its disk
     const float radius = kLampSize * std::sqrt(dice.x);
-    const float angle = 2 * std::numbers::pi_v<float> * dice.y;
+    const float angle = 2 * kPiF * dice.y;
     const glm::vec3 side = glm::normalize(glm::cross(to_lamp_, glm::vec3(0, 0, 1)));
     const glm::vec3 lamp =
         glm::normalize(to_lamp_ + radius * (std::cos(angle) * side +
@@ -121,7 +116,7 @@ glm::vec3 Painter::shade(const Meeting &meeting, const glm::vec4 &dice) const {
     }
     // The sky, through a direction of the cosine law: a point of the unit sphere about the normal
     const float z = 1 - 2 * dice.z, r = std::sqrt(std::max(0.0f, 1 - z * z));
-    const float turn = 2 * std::numbers::pi_v<float> * dice.w;
+    const float turn = 2 * kPiF * dice.w;
     const glm::vec3 away =
         meeting.normal + 0.999f * glm::vec3(r * std::cos(turn), r * std::sin(turn), z);
     if (scene_.escapes(origin, glm::normalize(away)))
@@ -196,26 +191,17 @@ Image weave_picture(const Weave &weave, const WeavePictureSettings &settings,
     check(settings);
     const Painter painter(weave, settings);
     Image image = Image::make(settings.width, settings.height, {"R", "G", "B"});
-    const std::size_t threads = settings.threads > 0
-                                    ? static_cast<std::size_t>(settings.threads)
-                                    : static_cast<std::size_t>(tbb::info::default_concurrency());
-    // More threads than cores must be allowed before an arena can have them
-    const tbb::global_control limit(
-        tbb::global_control::max_allowed_parallelism,
-        std::max(threads, static_cast<std::size_t>(tbb::info::default_concurrency())));
-    tbb::task_arena arena(static_cast<int>(threads));
-    for (int first = 0; first < image.height; first += kBand) {
-        if (progress.stopped())
-            throw Interrupted("the picture of the weave was stopped");
-        progress("picture", static_cast<double>(first) / image.height);
-        const int end = std::min(first + kBand, image.height);
-        arena.execute([&] {
-            tbb::parallel_for(first, end, [&](int y) {
+    tsuya::detail::run_with_threads(settings.threads, [&] {
+        for (int first = 0; first < image.height; first += kBand) {
+            if (progress.stopped())
+                throw Interrupted("the picture of the weave was stopped");
+            progress("picture", static_cast<double>(first) / image.height);
+            tbb::parallel_for(first, std::min(first + kBand, image.height), [&](int y) {
                 for (int x = 0; x < image.width; ++x)
                     put(image, x, y, painter.pixel(x, y));
             });
-        });
-    }
+        }
+    });
     progress("picture", 1);
     draw_bar(image, scale_bar(weave, settings), width_of_picture(weave, settings));
     return image;

@@ -94,13 +94,11 @@ std::vector<Problem> problems_of(const std::exception_ptr &cause) {
 } // namespace
 
 void check_pulse_train(const PulseTrain &train, const std::string &where) {
-    std::vector<Problem> problems;
+    Problems problems;
     const std::string prefix = where.empty() ? "" : where + ".";
     const auto require = [&](bool good, const char *field, const std::string &value,
                              const std::string &accepted) {
-        if (!good)
-            problems.push_back(
-                {.what = "is " + value, .where = prefix + field, .accepted = accepted});
+        problems.need(good, "is " + value, prefix + field, accepted);
     };
     require(train.width > nanoseconds(0), "width", in_ms(train.width), "more than 0 ms");
     require(train.period > train.width && train.period <= kMaxPeriod, "period", in_ms(train.period),
@@ -109,8 +107,7 @@ void check_pulse_train(const PulseTrain &train, const std::string &where) {
             "1 to " + std::to_string(kMaxCount));
     require(train.warm_up >= nanoseconds(0) && train.warm_up <= kMaxWarmUp, "warm_up",
             in_ms(train.warm_up), "0 to 24 h");
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
 }
 
 PulseReport run_pulses(const PulseTrain &train, const Rig &rig, const Progress &progress) {

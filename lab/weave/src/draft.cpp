@@ -125,7 +125,7 @@ Draft parse_draft(std::string_view name, const std::string &where) {
             if (const auto pair = two_numbers(name.substr(6)))
                 return satin(pair->first, pair->second);
     } catch (const Error &error) {
-        throw Error({error.problems()[0].what, where, error.problems()[0].accepted});
+        throw error.at(where);
     }
     throw Error({"unknown draft \"" + std::string(name) + "\"", where,
                  accepted_names(name, draft_names())});

@@ -1,10 +1,11 @@
 /// read_weave(): a weave from TOML or from a Weaving Information File.
-#include <cmath>
+#include <glm/gtc/color_space.hpp>
 
 #include "tsuya/lab/weave.h"
 #include "tsuya/lab/wif.h"
 #include "tsuya/sdk/document.h"
 #include "tsuya/sdk/error.h"
+#include "wif_text.h"
 
 namespace tsuya::lab {
 namespace {
@@ -14,8 +15,7 @@ template <class Check> void note(const Section &section, std::string_view key, C
     try {
         check();
     } catch (const Error &error) {
-        for (const Problem &problem : error.problems())
-            section.problem(key, problem.what, problem.accepted);
+        section.problem(key, error);
     }
 }
 
@@ -125,11 +125,6 @@ Weave read_toml(const std::filesystem::path &file) {
     return result;
 }
 
-/// [IEC61966], decoding.
-double linear(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 void apply(const WifYarns &yarns, Yarn &yarn) {
     if (yarns.spacing) {
         // The same cloth at another scale: a file tells how far threads lie apart, not what they
@@ -141,7 +136,7 @@ void apply(const WifYarns &yarns, Yarn &yarn) {
         return;
     glm::dvec3 sum(0);
     for (const glm::dvec3 &color : yarns.color)
-        sum += glm::dvec3(linear(color.x), linear(color.y), linear(color.z));
+        sum += glm::convertSRGBToLinear(color);
     sum /= static_cast<double>(yarns.color.size());
     yarn.transmission = {sum.x, sum.y, sum.z};
 }
@@ -149,10 +144,7 @@ void apply(const WifYarns &yarns, Yarn &yarn) {
 } // namespace
 
 Weave read_weave(const std::filesystem::path &file) {
-    std::string extension = file.extension().string();
-    for (char &c : extension)
-        c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    if (extension != ".wif")
+    if (detail::lower_case(file.extension().string()) != ".wif")
         return read_toml(file);
     const Wif wif = read_wif(file);
     Weave result = weave("polyester taffeta");

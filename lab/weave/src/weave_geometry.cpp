@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "tsuya/sdk/angle.h"
 #include "weave_layout.h"
 
 namespace tsuya::lab {
@@ -68,7 +68,7 @@ constexpr double kSway = 0.6;
 
 void append_filaments(const WeaveLayout &layout, const YarnPlan &plan, std::uint64_t seed,
                       std::vector<Filament> &filaments) {
-    constexpr double kTurn = 2 * std::numbers::pi;
+    constexpr double kTurn = 2 * kPi;
     const bool warp = plan.system == 0;
     const detail::RaceTrack &section = warp ? layout.warp : layout.weft;
     const detail::FilamentPacking &packing = warp ? layout.warp_packing : layout.weft_packing;

@@ -52,7 +52,7 @@ const WifEntry *WifSection::find(std::string_view key) const {
 WifText::WifText(std::string_view text, std::string name) : name_(std::move(name)) {
     WifSection *section = nullptr;
     int number = 0;
-    while (!text.empty() && problems_.size() < kMaxProblems) {
+    while (!text.empty() && !problems_.full()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
@@ -99,20 +99,16 @@ const WifSection *WifText::require(std::string_view section) {
 }
 
 void WifText::problem(int line, int column, std::string what, std::string accepted) {
-    if (problems_.size() < kMaxProblems)
-        problems_.push_back({std::move(what),
-                             name_ + ":" + std::to_string(line) + ":" + std::to_string(column),
-                             std::move(accepted)});
+    problems_.add({std::move(what),
+                   name_ + ":" + std::to_string(line) + ":" + std::to_string(column),
+                   std::move(accepted)});
 }
 
 void WifText::value_problem(const WifEntry &entry, std::string what, std::string accepted) {
     problem(entry.line, entry.value_column, std::move(what), std::move(accepted));
 }
 
-void WifText::finish() const {
-    if (!problems_.empty())
-        throw Error(problems_);
-}
+void WifText::finish() const { problems_.throw_if_any(); }
 
 int WifText::integer(const WifEntry &entry, int low, int high) {
     int value = 0;

@@ -49,7 +49,7 @@ class WifText {
   private:
     std::string name_;
     std::map<std::string, WifSection, std::less<>> sections_{};
-    std::vector<Problem> problems_{};
+    Problems problems_{};
 };
 
 std::string lower_case(std::string_view text);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::lab::detail {
 namespace {
@@ -12,7 +13,7 @@ constexpr double kLoose = 0.97; ///< of the radius at which neighbours would tou
 /// Length of half a circle of filament centres, counted so that equal steps of it have chords of
 /// equal length: an arc whose chord is 2 r counts 2 r.
 double half_circle(double ring_radius, double r) {
-    return std::numbers::pi * r / std::asin(std::min(1.0, r / ring_radius));
+    return kPi * r / std::asin(std::min(1.0, r / ring_radius));
 }
 
 double perimeter(const RaceTrack &section, double ring_radius, double r) {
@@ -38,9 +39,7 @@ std::vector<FilamentRing> rings_of(const RaceTrack &section, double r, int count
 
 } // namespace
 
-double RaceTrack::area() const {
-    return 4 * half_flat * radius + std::numbers::pi * radius * radius;
-}
+double RaceTrack::area() const { return 4 * half_flat * radius + kPi * radius * radius; }
 
 FilamentPacking pack_filaments(const RaceTrack &section, int count) {
     constexpr double kShrink = 0.998;
@@ -67,7 +66,7 @@ glm::dvec2 ring_place(const RaceTrack &section, const FilamentRing &ring, double
         s -= flat + cap;
     if (s < flat)
         return side * glm::dvec2(section.half_flat - s, ring.radius);
-    const double turn = std::numbers::pi * (s - flat) / cap;
+    const double turn = kPi * (s - flat) / cap;
     return side * glm::dvec2(-section.half_flat - ring.radius * std::sin(turn),
                              ring.radius * std::cos(turn));
 }
