@@ -32,7 +32,7 @@ class LabCommand final : public Command {
         pulse_.footer(example);
         pulse_.add_option("--line", job_.shutter.line, "Shutter's line: its name or offset")
             ->capture_default_str();
-        pulse_.add_option("--lamp-line", job_.lamp.line, "Lamp's line; none if not given");
+        pulse_.add_option("--lamp-line", lamp_line_, "Lamp's line; none if not given");
         pulse_.add_option("--chip", chip_, "GPIO chip; the one that has the line if not given");
         // CLI::Range admits any finite positive time; run_pulse_job knows the limits
         pulse_.add_option("--width-ms", width_ms_, "Of a pulse")
@@ -56,10 +56,10 @@ class LabCommand final : public Command {
         job_.train.width = nanoseconds_of(width_ms_);
         job_.train.period = nanoseconds_of(period_ms_);
         job_.train.warm_up = nanoseconds_of(warm_up_ms_);
-        for (lab::GpioLineSettings *line : {&job_.shutter, &job_.lamp}) {
-            line->chip = chip_;
-            line->active_low = active_low_;
-        }
+        job_.shutter.chip = chip_;
+        job_.shutter.active_low = active_low_;
+        if (!lamp_line_.empty())
+            job_.lamp = {.chip = chip_, .line = lamp_line_, .active_low = active_low_};
         const lab::PulseReport report = lab::run_pulse_job(job_, console.progress());
         if (json_)
             print_json(report);
@@ -100,7 +100,7 @@ class LabCommand final : public Command {
     CLI::App &app_;
     CLI::App &pulse_;
     lab::PulseJob job_{.train = {.count = 5}};
-    std::string chip_{};
+    std::string chip_{}, lamp_line_{};
     double width_ms_ = 20, period_ms_ = 100, warm_up_ms_ = 0;
     bool active_low_ = false, json_ = false;
 };

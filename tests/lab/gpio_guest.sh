@@ -48,7 +48,7 @@ check "the lamp is off" is_level lamp 0
 check "the shutter is closed" is_level shutter 0
 
 # A signal in the middle of a pulse of ten minutes.
-for signal in TERM INT; do
+for signal in TERM INT HUP QUIT; do
     since=$(trace_length)
     setsid "$pulses" gpiochip0 shutter lamp 600000 700000 5 >said 2>&1 &
     program=$!

@@ -15,8 +15,9 @@ std::atomic<bool> stop{false}; // a signal handler can only reach something glob
 
 /// Returns the exit status of the program.
 int run(const tsuya::lab::PulseJob &job) {
-    std::signal(SIGINT, [](int) { stop = true; });
-    std::signal(SIGTERM, [](int) { stop = true; });
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
+        std::signal(signal, [](int) { stop = true; });
+    std::signal(SIGPIPE, SIG_IGN);
     try {
         const tsuya::lab::PulseReport report = run_pulse_job(job, {.stop = &stop});
         std::printf("%zu pulses, %.3f ms late at most\n", report.pulses.size(),
@@ -37,13 +38,15 @@ int run(const tsuya::lab::PulseJob &job) {
 int main(int argc, char **argv) {
     if (argc < 7)
         return 2;
+    using tsuya::lab::GpioLineSettings;
     const bool active_low = argc > 7 && std::string_view(argv[7]) == "low";
     const auto milliseconds = [](const char *text) {
         return std::chrono::milliseconds(std::atoi(text));
     };
-    return run({.train = {.width = milliseconds(argv[4]),
-                          .period = milliseconds(argv[5]),
-                          .count = std::atoi(argv[6])},
-                .shutter = {.chip = argv[1], .line = argv[2], .active_low = active_low},
-                .lamp = {.chip = argv[1], .line = argv[3], .active_low = active_low}});
+    return run(
+        {.train = {.width = milliseconds(argv[4]),
+                   .period = milliseconds(argv[5]),
+                   .count = std::atoi(argv[6])},
+         .shutter = {.chip = argv[1], .line = argv[2], .active_low = active_low},
+         .lamp = GpioLineSettings{.chip = argv[1], .line = argv[3], .active_low = active_low}});
 }

@@ -16,7 +16,7 @@ if ! "$bed" --check; then
     echo "skipped: $bed cannot run here"
     exit 77
 fi
-"$bed" --lines 8 --name 0=lamp --name 1=shutter --hog 5=held --with "$program=/gpio_pulses" \
+"$bed" --warp --lines 8 --name 0=lamp --name 1=shutter --hog 5=held --with "$program=/gpio_pulses" \
     --with "$guest=/gpio_guest.sh" -- sh /gpio_guest.sh /gpio_pulses
 
 # A user outside the device's group is told which group it is.

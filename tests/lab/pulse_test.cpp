@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace tsuya::lab {
 namespace {
 
@@ -54,10 +56,11 @@ TEST(Pulses, AreExactAtTheLimits) {
 
 TEST(Pulses, LatenessDoesNotAddUp) {
     SimulatedRig simulated;
-    simulated.clock.at(5ms, [&] { simulated.clock.advance(50ms); }); // the second opens 5 ms late
-    const PulseReport report = run_pulses({.width = 20ms, .period = 50ms, .count = 4},
-                                          {.shutter = simulated.shutter, .clock = simulated.clock});
-    EXPECT_EQ(report.pulses[0].closed, 55ms);
+    simulated.clock.at(25ms, [&] { simulated.clock.advance(30ms); }); // the second opens 5 ms late
+    const PulseReport report =
+        run_pulses({.width = 20ms, .period = 50ms, .count = 4, .tolerance = 5ms},
+                   {.shutter = simulated.shutter, .clock = simulated.clock});
+    EXPECT_EQ(report.pulses[0].closed, 20ms);
     EXPECT_EQ(report.pulses[1].opened, 55ms);
     EXPECT_EQ(report.pulses[1].closed, 70ms);
     EXPECT_EQ(report.pulses[3].opened, 150ms);
@@ -67,7 +70,7 @@ TEST(Pulses, ReportLateness) {
     SimulatedRig simulated;
     simulated.clock.at(95ms, [&] { simulated.clock.advance(8ms); }); // the second opens 3 ms late
     const PulseReport report =
-        run_pulses({.width = 20ms, .period = 100ms, .count = 2}, simulated.rig);
+        run_pulses({.width = 20ms, .period = 100ms, .count = 2, .tolerance = 3ms}, simulated.rig);
     EXPECT_EQ(report.pulses[1].opened, 103ms);
     EXPECT_EQ(report.pulses[1].closed, 120ms);
     EXPECT_EQ(report.largest_late, 3ms);
@@ -192,6 +195,102 @@ TEST(Pulses, APulseThatWasMissedIsAnError) {
     simulated.expect_off();
 }
 
+/// A line whose hardware takes time.
+class SlowLine final : public OutputLine {
+  public:
+    SlowLine(VirtualClock &clock, std::chrono::nanoseconds opening,
+             std::chrono::nanoseconds closing)
+        : clock_(clock), line_("shutter", clock), opening_(opening), closing_(closing) {}
+
+    void set(bool active) override {
+        if (active)
+            clock_.advance(opening_);
+        line_.set(active);
+        if (!active)
+            clock_.advance(closing_);
+    }
+    const std::string &name() const override { return line_.name(); }
+    bool active() const { return line_.active(); }
+
+  private:
+    VirtualClock &clock_;
+    SimulatedLine line_;
+    std::chrono::nanoseconds opening_, closing_;
+};
+
+/// What a train with a slow shutter ends with; fails if it is no error.
+PulsesFailed failure_of(const PulseTrain &train, OutputLine &shutter, VirtualClock &clock) {
+    try {
+        run_pulses(train, {.shutter = shutter, .clock = clock});
+    } catch (const PulsesFailed &error) {
+        return error;
+    }
+    ADD_FAILURE() << "no error";
+    return {{{.what = "none"}}, {}};
+}
+
+TEST(Pulses, ThatAreLateAfterTheLineWasSetAreErrors) {
+    for (const auto &[opening, closing, what] :
+         {std::tuple{31ms, 0ms, "pulse 1 of 1 opened 31.0"},
+          std::tuple{0ms, 2000ms, "pulse 1 of 1 closed 2000.0"}}) {
+        VirtualClock clock;
+        SlowLine shutter(clock, opening, closing);
+        const PulsesFailed error =
+            failure_of({.width = 20ms, .period = 5s, .count = 1}, shutter, clock);
+        EXPECT_TRUE(error.problems()[0].what.starts_with(what)) << error.what();
+        EXPECT_EQ(error.problems()[0].where, "shutter");
+        EXPECT_TRUE(error.report().pulses.empty());
+        EXPECT_FALSE(shutter.active());
+    }
+}
+
+TEST(Pulses, MayBeLateByTheToleranceButNotMore) {
+    EXPECT_EQ(default_tolerance(20ms), 500us);
+    EXPECT_EQ(default_tolerance(25ms), 500us);
+    EXPECT_EQ(default_tolerance(1s), 20ms);
+    struct Case {
+        std::chrono::nanoseconds width;
+        std::optional<std::chrono::nanoseconds> tolerance;
+        std::chrono::nanoseconds allowed;
+    };
+    for (const Case &c : {Case{20ms, {}, 500us}, Case{1s, {}, 20ms}, Case{20ms, 3ms, 3ms}}) {
+        const PulseTrain train{
+            .width = c.width, .period = 5s, .count = 2, .tolerance = c.tolerance};
+        VirtualClock clock;
+        SlowLine just(clock, c.allowed, 0ns);
+        EXPECT_EQ(run_pulses(train, {.shutter = just, .clock = clock}).largest_late, c.allowed);
+        SlowLine slower(clock, c.allowed + 1ns, 0ns);
+        failure_of(train, slower, clock);
+        SlowLine closes(clock, 0ns, c.allowed + 1ns);
+        failure_of(train, closes, clock);
+    }
+}
+
+TEST(Pulses, AnErrorCarriesThePulsesThatWereDone) {
+    SimulatedRig simulated;
+    simulated.clock.at(10210ms, [&] { simulated.clock.advance(30ms); }); // the third closes late
+    const PulsesFailed error = failure_of(three_pulses(), simulated.shutter, simulated.clock);
+    ASSERT_EQ(error.report().pulses.size(), 2u);
+    EXPECT_EQ(error.report().pulses[1].closed, 120ms);
+    EXPECT_EQ(error.report().mean_width, 20ms);
+    EXPECT_EQ(error.report().largest_late, 0ns);
+}
+
+TEST(Pulses, AnInterruptionCarriesThePulsesThatWereDone) {
+    SimulatedRig simulated;
+    std::atomic<bool> stop{false};
+    simulated.clock.at(10110ms, [&] { stop = true; });
+    try {
+        run_pulses(three_pulses(), simulated.rig, {.stop = &stop});
+        FAIL() << "not interrupted";
+    } catch (const PulsesInterrupted &interrupted) {
+        ASSERT_EQ(interrupted.report().pulses.size(), 1u);
+        EXPECT_EQ(interrupted.report().pulses[0].closed, 20ms);
+        EXPECT_TRUE(std::string(interrupted.what()).starts_with("stopped after 1 of 3"));
+    }
+    simulated.expect_off();
+}
+
 TEST(PulseTrain, NamesEverythingThatIsOutOfRange) {
     try {
         check_pulse_train({.width = 0ms, .period = 0ms, .count = 0, .warm_up = -1ms}, "train");
@@ -218,12 +317,13 @@ TEST(PulseTrain, IsCheckedBeforeAnythingMoves) {
         EXPECT_THROW(run_pulses(train, simulated.rig), Error);
         EXPECT_TRUE(simulated.lamp.transitions().empty());
     }
+    EXPECT_THROW(check_pulse_train({.tolerance = 0ns}), Error);
     EXPECT_NO_THROW(check_pulse_train({.width = 20ms, .period = 20ms + 1ns}));
 }
 
 TEST(PulseJob, RunsInVirtualTimeWithoutHardware) {
     const PulseJob job{.train = {.width = 20ms, .period = 100ms, .count = 5, .warm_up = 15min},
-                       .lamp = {.line = "lamp"},
+                       .lamp = GpioLineSettings{.line = "lamp"},
                        .simulate = true};
     const PulseReport report = run_pulse_job(job);
     EXPECT_EQ(report.pulses.size(), 5u);
@@ -231,8 +331,20 @@ TEST(PulseJob, RunsInVirtualTimeWithoutHardware) {
 }
 
 TEST(PulseJob, RefusesOneLineForBoth) {
-    const PulseJob job{.shutter = {.line = "lamp"}, .lamp = {.line = "lamp"}, .simulate = true};
+    const PulseJob job{
+        .shutter = {.line = "lamp"}, .lamp = GpioLineSettings{.line = "lamp"}, .simulate = true};
     EXPECT_THROW(run_pulse_job(job), Error);
+}
+
+TEST(PulseJob, RefusesEmptyNames) {
+    try {
+        run_pulse_job({.shutter = {.line = ""}, .lamp = GpioLineSettings{}, .simulate = true});
+        FAIL() << "no error";
+    } catch (const Error &error) {
+        ASSERT_GE(error.problems().size(), 2u);
+        EXPECT_EQ(error.problems()[0].where, "shutter");
+        EXPECT_EQ(error.problems()[1].where, "lamp");
+    }
 }
 
 TEST(PulseJob, ChecksTheTrainBeforeItTakesALine) {

@@ -18,35 +18,54 @@ std::string in_ms(nanoseconds duration) {
     return std::to_string(std::chrono::duration<double, std::milli>(duration).count()) + " ms";
 }
 
-[[noreturn]] void throw_interrupted(int done, int count) {
-    throw Interrupted("stopped after " + std::to_string(done) + " of " + std::to_string(count) +
-                      " pulses; the lamp is off and the shutter closed");
+[[noreturn]] void throw_interrupted(const PulseReport &done, int count) {
+    throw Interrupted("stopped after " + std::to_string(done.pulses.size()) + " of " +
+                      std::to_string(count) + " pulses; the lamp is off and the shutter closed");
 }
 
-void open_and_close(const PulseTrain &train, const Rig &rig, const Progress &progress, int index,
-                    nanoseconds start, PulseReport &report) {
-    const nanoseconds open_at = start + index * train.period;
-    const nanoseconds close_at = open_at + train.width;
-    if (!rig.clock.sleep_until(open_at, progress.stop))
-        throw_interrupted(index, train.count);
-    if (const nanoseconds late = rig.clock.now() - open_at; late >= train.width)
-        throw Error({.what = "pulse " + std::to_string(index + 1) + " of " +
-                             std::to_string(train.count) + " came " + in_ms(late) +
-                             " late, after it should have ended",
-                     .where = rig.shutter.name(),
-                     .accepted = "a longer width or a computer with less other work"});
+/// A train under way.
+struct Run {
+    const PulseTrain &train;
+    const Rig &rig;
+    const Progress &progress;
+    nanoseconds tolerance;
+    nanoseconds start; ///< planned opening of the first pulse
+    PulseReport &report;
+
+    void refuse_late(int index, const char *moved, nanoseconds late) const {
+        if (late > tolerance)
+            throw Error({.what = "pulse " + std::to_string(index + 1) + " of " +
+                                 std::to_string(train.count) + ' ' + moved + ' ' + in_ms(late) +
+                                 " late",
+                         .where = rig.shutter.name(),
+                         .accepted = "at most " + in_ms(tolerance) +
+                                     ": a computer with less other work, or a larger tolerance"});
+    }
+};
+
+void open_and_close(const Run &run, int index) {
+    const nanoseconds open_at = run.start + index * run.train.period;
+    const nanoseconds close_at = open_at + run.train.width;
+    Clock &clock = run.rig.clock;
+    if (!clock.sleep_until(open_at, run.progress.stop))
+        throw_interrupted(run.report, run.train.count);
+    run.refuse_late(index, "would have opened", clock.now() - open_at);
     PulseTiming timing;
-    rig.shutter.set(true);
-    timing.opened = rig.clock.now() - start;
-    const bool whole = rig.clock.sleep_until(close_at, progress.stop);
-    rig.shutter.set(false);
-    timing.closed = rig.clock.now() - start;
+    run.rig.shutter.set(true);
+    timing.opened = clock.now() - run.start;
+    run.refuse_late(index, "opened", timing.opened - (open_at - run.start));
+    const bool whole = clock.sleep_until(close_at, run.progress.stop);
+    run.rig.shutter.set(false);
+    timing.closed = clock.now() - run.start;
     if (!whole)
-        throw_interrupted(index, train.count);
-    report.pulses.push_back(timing);
+        throw_interrupted(run.report, run.train.count);
+    run.refuse_late(index, "closed", timing.closed - (close_at - run.start));
+    run.report.pulses.push_back(timing);
 }
 
 void summarize(const PulseTrain &train, PulseReport &report) {
+    if (report.pulses.empty())
+        return;
     nanoseconds width{0};
     nanoseconds late{0};
     for (std::size_t i = 0; i < report.pulses.size(); ++i) {
@@ -62,20 +81,23 @@ void summarize(const PulseTrain &train, PulseReport &report) {
     report.mean_late = late / (2 * count);
 }
 
-PulseReport lit_pulses(const PulseTrain &train, const Rig &rig, const Progress &progress) {
-    PulseReport report;
+void lit_pulses(const PulseTrain &train, const Rig &rig, const Progress &progress,
+                PulseReport &report) {
     if (progress.stopped())
-        throw_interrupted(0, train.count);
+        throw_interrupted(report, train.count);
     if (rig.lamp)
         rig.lamp->set(true);
     progress("warm-up", 0.0);
-    const nanoseconds start = rig.clock.now() + train.warm_up;
+    const Run run{.train = train,
+                  .rig = rig,
+                  .progress = progress,
+                  .tolerance = train.tolerance.value_or(default_tolerance(train.width)),
+                  .start = rig.clock.now() + train.warm_up,
+                  .report = report};
     for (int i = 0; i < train.count; ++i) {
-        open_and_close(train, rig, progress, i, start, report);
+        open_and_close(run, i);
         progress("pulses", static_cast<double>(i + 1) / train.count);
     }
-    summarize(train, report);
-    return report;
 }
 
 /// The exception as problems, so that others can be said beside it.
@@ -91,7 +113,24 @@ std::vector<Problem> problems_of(const std::exception_ptr &cause) {
     }
 }
 
+/// Throws the cause with the pulses that were done.
+[[noreturn]] void throw_with(const PulseReport &report, const std::exception_ptr &cause) {
+    try {
+        std::rethrow_exception(cause);
+    } catch (const Error &error) {
+        throw PulsesFailed(error.problems(), report);
+    } catch (const Interrupted &interrupted) {
+        throw PulsesInterrupted(interrupted.what(), report);
+    }
+}
+
 } // namespace
+
+nanoseconds default_tolerance(nanoseconds width) {
+    constexpr nanoseconds kLeast = std::chrono::microseconds(500);
+    constexpr int kShare = 50; // 2 %
+    return std::max(kLeast, width / kShare);
+}
 
 void check_pulse_train(const PulseTrain &train, const std::string &where) {
     Problems problems;
@@ -107,6 +146,9 @@ void check_pulse_train(const PulseTrain &train, const std::string &where) {
             "1 to " + std::to_string(kMaxCount));
     require(train.warm_up >= nanoseconds(0) && train.warm_up <= kMaxWarmUp, "warm_up",
             in_ms(train.warm_up), "0 to 24 h");
+    if (train.tolerance)
+        require(*train.tolerance > nanoseconds(0), "tolerance", in_ms(*train.tolerance),
+                "more than 0 ms");
     problems.throw_if_any();
 }
 
@@ -116,21 +158,22 @@ PulseReport run_pulses(const PulseTrain &train, const Rig &rig, const Progress &
     PulseReport report;
     std::exception_ptr cause;
     try {
-        report = lit_pulses(train, rig, progress);
+        lit_pulses(train, rig, progress, report);
     } catch (...) {
         cause = std::current_exception();
     }
     const std::vector<Problem> still_on = guard.drive_off();
-    if (still_on.empty()) {
+    summarize(train, report);
+    if (!still_on.empty()) {
+        std::vector<Problem> problems;
         if (cause)
-            std::rethrow_exception(cause);
-        return report;
+            problems = problems_of(cause);
+        problems.insert(problems.end(), still_on.begin(), still_on.end());
+        throw PulsesFailed(std::move(problems), report);
     }
-    std::vector<Problem> problems;
     if (cause)
-        problems = problems_of(cause);
-    problems.insert(problems.end(), still_on.begin(), still_on.end());
-    throw Error(std::move(problems));
+        throw_with(report, cause);
+    return report;
 }
 
 } // namespace tsuya::lab
