@@ -1,13 +1,15 @@
 #pragma once
-// A command of the program: its options, and what it does with them.
+/// \file
+/// A command of the program: its options, and what it does with them. How one is added: write a
+/// source with a struct like those beside this file, declare its `make_` here, and give it a line
+/// in the table of main.cpp.
 
 #include <memory>
+#include <span>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "console.h"
-#include "tsuya/sdk/progress.h"
+#include "options.h"
 
 namespace tsuya::program {
 
@@ -20,29 +22,45 @@ enum Status : int {
     kCheckFailed = 4,
 };
 
-/// Made with its options on the command line; run if it was called.
+/// A struct of fields that options fill.
 class Command {
   public:
     virtual ~Command() = default;
-    virtual bool called() const = 0;
+    /// Tells the options, each with the field that it fills. A field's value is the default.
+    virtual void options(Options &options) = 0;
     /// \return what the process returns. Errors are thrown.
     virtual Status run(Console &console) = 0;
 };
 
-std::unique_ptr<Command> make_tryon(CLI::App &program);
-std::unique_ptr<Command> make_render(CLI::App &program);
-std::unique_ptr<Command> make_relight(CLI::App &program);
-std::unique_ptr<Command> make_compare(CLI::App &program);
-std::unique_ptr<Command> make_fabric(CLI::App &program);
-std::unique_ptr<Command> make_garment(CLI::App &program);
-std::unique_ptr<Command> make_lab(CLI::App &program);
-std::unique_ptr<Command> make_list(CLI::App &program);
+/// A line in the table of commands.
+struct CommandEntry {
+    const char *name;                   ///< `render`, or `fabric fit` in a group
+    const char *about;                  ///< what it does, for the help of the whole program
+    std::unique_ptr<Command> (*make)(); ///< null for a group, which comes before its commands
+};
 
-/// The commands of `tsuya fabric`.
-std::unique_ptr<Command> make_fabric_fit(CLI::App &fabric);
-std::unique_ptr<Command> make_fabric_evaluate(CLI::App &fabric);
-std::unique_ptr<Command> make_fabric_show(CLI::App &fabric);
-std::unique_ptr<Command> make_fabric_paper(CLI::App &fabric);
-std::unique_ptr<Command> make_fabric_simulate(CLI::App &fabric);
+/// What the words of a call ask for.
+struct Call {
+    std::unique_ptr<Command> command{}; ///< with its fields filled; null: only `text` is printed
+    std::string text{};                 ///< the help or the version
+    std::string progress = "auto";      ///< see parse_progress_mode
+};
+
+/// Takes a call apart. Throws WrongCall.
+Call parse_call(std::span<const CommandEntry> table, int argc, const char *const *argv);
+
+std::unique_ptr<Command> make_tryon();
+std::unique_ptr<Command> make_render();
+std::unique_ptr<Command> make_relight();
+std::unique_ptr<Command> make_compare();
+std::unique_ptr<Command> make_fabric_fit();
+std::unique_ptr<Command> make_fabric_simulate();
+std::unique_ptr<Command> make_fabric_evaluate();
+std::unique_ptr<Command> make_fabric_show();
+std::unique_ptr<Command> make_fabric_paper();
+std::unique_ptr<Command> make_garment_check();
+std::unique_ptr<Command> make_garment_subdivide();
+std::unique_ptr<Command> make_lab_pulse();
+std::unique_ptr<Command> make_list();
 
 } // namespace tsuya::program

@@ -11,94 +11,99 @@
 #include "tsuya/color/sheet.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/picture.h"
+#include "tsuya/sdk/detail/threads.h"
 
 namespace tsuya::program {
 namespace {
 
-class CompareCommand final : public Command {
-  public:
-    explicit CompareCommand(CLI::App &program)
-        : app_(*program.add_subcommand("compare", "One render under several lamps")) {
-        app_.footer("Example:\n  tsuya compare dress.exr --lamps D65,HP4,A -o sheet.png\n"
-                    "Prints CIEDE2000 between the lamps, each picture adapted to D65 by CAT02.");
-        app_.add_option("transport", transport_, "OUT.exr of render or tryon")->required();
-        app_.add_option("--lamps", lamps_, "Names of `tsuya list lamps`, or F.csv; two or more")
-            ->delimiter(',')
-            ->required();
-        app_.add_option("-o,--output", output_, "SHEET.png")->required();
-        app_.add_option("--report", report_, "FILE.json of the differences");
-        app_.add_flag("--json", json_, "The differences as JSON");
-        look_.add_to(app_);
+void print(const std::vector<LampDifference> &differences) {
+    std::cout << "CIEDE2000 after adaptation\n"
+              << std::left << std::setw(12) << "first" << std::setw(12) << "second" << std::right
+              << std::setw(8) << "mean" << std::setw(8) << "p95" << std::setw(8) << "max"
+              << std::setw(10) << "pixels"
+              << "\n"
+              << std::fixed << std::setprecision(2);
+    for (const LampDifference &d : differences)
+        std::cout << std::left << std::setw(12) << d.first << std::setw(12) << d.second
+                  << std::right << std::setw(8) << d.mean << std::setw(8) << d.p95 << std::setw(8)
+                  << d.max << std::setw(10) << d.pixels << "\n";
+}
+
+struct Compare final : Command {
+    std::filesystem::path transport{}, output{}, report{};
+    std::vector<std::string> lamps{};
+    bool json = false;
+    int threads = 0;
+    LookOptions look{};
+
+    void options(Options &o) override {
+        o.argument(&transport, "OUT.exr", "light transport from render or tryon").required();
+        o.option("--lamps", &lamps, "A,B,...", "two or more of `tsuya list lamps`, or F.csv")
+            .with_commas()
+            .required();
+        o.option("-o,--output", &output, "SHEET.png", "the pictures side by side").required();
+        o.option("--report", &report, "FILE.json", "file for the colour differences");
+        o.flag("--json", &json, "print the colour differences as JSON");
+        look.add_to(o);
+        add_threads(o, threads);
+        o.example("tsuya compare dress.exr --lamps D65,HP4,A -o sheet.png");
+        o.notes("Prints CIEDE2000 between the lamps, each picture adapted to D65 by CAT02.");
     }
 
-    bool called() const override { return app_.parsed(); }
-
     Status run(Console &) override {
-        const DisplayOptions look = look_.look();
-        const SpectralImage transport = read_spectral_exr(transport_);
-        const std::vector<NamedLamp> lamps = scene::parse_lamps(lamps_);
-        const std::vector<LampDifference> differences =
-            compare_lamps(transport, lamps, {.exposure_stops = look.exposure_stops});
-        Sheet sheet;
-        for (const NamedLamp &lamp : lamps)
-            sheet.pictures.push_back(
-                {scene::picture_under(transport, {&lamp, 1}, look), scene::caption_of(lamp)});
-        const Image drawn = draw_sheet(sheet);
-        scene::prepare_output_file(output_, {".png"});
-        if (!report_.empty())
-            scene::prepare_output_file(report_, {".json"});
-        write_png(output_, drawn);
-        const Json json = json_of_differences(differences);
-        if (!report_.empty())
-            write_json(report_, json);
-        if (json_)
-            std::cout << json.dump(2) << "\n";
+        scene::check_output_file(output, {".png"});
+        if (!report.empty())
+            scene::check_output_file(report, {".json"});
+        std::vector<LampDifference> differences;
+        detail::run_with_threads(threads, [&] { differences = compare(); });
+        const Json numbers = json_of_differences(differences);
+        if (!report.empty())
+            write_json(report, numbers);
+        if (json)
+            std::cout << numbers.text() << "\n";
         else
             print(differences);
         return kDone;
     }
 
-  private:
+    /// Draws the sheet.
+    std::vector<LampDifference> compare() const {
+        const DisplayOptions display = look.look();
+        const std::vector<NamedLamp> named = scene::parse_lamps(lamps);
+        const SpectralImage image = read_spectral_exr(transport);
+        const std::vector<LampDifference> differences =
+            compare_lamps(image, named, {.exposure_stops = display.exposure_stops});
+        Sheet sheet;
+        for (const NamedLamp &lamp : named)
+            sheet.pictures.push_back(
+                {scene::picture_under(image, {&lamp, 1}, display), scene::caption_of(lamp)});
+        const Image drawn = draw_sheet(sheet);
+        scene::prepare_output_file(output, {".png"});
+        if (!report.empty())
+            scene::prepare_output_file(report, {".json"});
+        write_png(output, drawn);
+        return differences;
+    }
+
     Json json_of_differences(const std::vector<LampDifference> &differences) const {
-        Json json{{"schema", "tsuya-compare 1"},
-                  {"transport", transport_.string()},
-                  {"measure", "CIEDE2000"},
-                  {"adaptation", to_string(CompareOptions{}.adapt)},
-                  {"differences", Json::array()}};
+        Json numbers{{"schema", "tsuya-compare 1"},
+                     {"transport", transport.string()},
+                     {"measure", "CIEDE2000"},
+                     {"adaptation", to_string(CompareOptions{}.adapt)},
+                     {"differences", Json::array()}};
         for (const LampDifference &d : differences)
-            json["differences"].push_back({{"first", d.first},
-                                           {"second", d.second},
-                                           {"mean", d.mean},
-                                           {"p95", d.p95},
-                                           {"max", d.max},
-                                           {"pixels", d.pixels}});
-        return json;
+            numbers["differences"].push_back({{"first", d.first},
+                                              {"second", d.second},
+                                              {"mean", d.mean},
+                                              {"p95", d.p95},
+                                              {"max", d.max},
+                                              {"pixels", d.pixels}});
+        return numbers;
     }
-
-    static void print(const std::vector<LampDifference> &differences) {
-        std::cout << "CIEDE2000 after adaptation\n"
-                  << std::left << std::setw(12) << "first" << std::setw(12) << "second"
-                  << std::right << std::setw(8) << "mean" << std::setw(8) << "p95" << std::setw(8)
-                  << "max" << std::setw(10) << "pixels"
-                  << "\n"
-                  << std::fixed << std::setprecision(2);
-        for (const LampDifference &d : differences)
-            std::cout << std::left << std::setw(12) << d.first << std::setw(12) << d.second
-                      << std::right << std::setw(8) << d.mean << std::setw(8) << d.p95
-                      << std::setw(8) << d.max << std::setw(10) << d.pixels << "\n";
-    }
-
-    CLI::App &app_;
-    std::filesystem::path transport_{}, output_{}, report_{};
-    std::vector<std::string> lamps_{};
-    bool json_ = false;
-    LookOptions look_{};
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_compare(CLI::App &program) {
-    return std::make_unique<CompareCommand>(program);
-}
+std::unique_ptr<Command> make_compare() { return std::make_unique<Compare>(); }
 
 } // namespace tsuya::program

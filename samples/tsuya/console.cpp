@@ -7,7 +7,8 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
+#include "json.h"
+#include "tsuya/garment/report.h"
 
 namespace tsuya::program {
 namespace {
@@ -32,8 +33,8 @@ void watch_signals() {
     struct sigaction action {};
     action.sa_handler = [](int) { stop = true; };
     action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        sigaction(signal, &action, nullptr);
 }
 
 Progress Console::progress() {
@@ -53,10 +54,10 @@ void Console::report(std::string_view stage, double fraction) {
     stage_ = stage;
     told_percent_ = percent;
     if (mode_ == ProgressMode::json) {
-        const nlohmann::ordered_json line{{"schema", "tsuya-progress 1"},
-                                          {"stage", stage_},
-                                          {"fraction", std::clamp(fraction, 0.0, 1.0)}};
-        std::cerr << line.dump() + "\n";
+        const Json line{{"schema", "tsuya-progress 1"},
+                        {"stage", stage_},
+                        {"fraction", std::clamp(fraction, 0.0, 1.0)}};
+        std::cerr << line.one_line() + "\n";
     } else if (mode_ == ProgressMode::plain) {
         if (new_step)
             std::cerr << stage_ + " " + std::to_string(percent) + " %\n";
@@ -83,6 +84,11 @@ void Console::error(std::string_view text) {
 void Console::error(const Problem &problem) {
     error((problem.where.empty() ? "" : problem.where + ": ") + problem.what +
           (problem.accepted.empty() ? "" : "; " + problem.accepted));
+}
+
+void Console::errors(const Error &error) {
+    for (const Problem &problem : error.problems())
+        this->error(problem);
 }
 
 void Console::warning(std::string_view text) { error("warning: " + std::string(text)); }

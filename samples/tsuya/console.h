@@ -1,12 +1,16 @@
 #pragma once
-// What the program says while it works: progress and warnings, all on stderr.
+/// \file
+/// What the program says while it works: progress and warnings, all on stderr.
 
 #include <string>
 #include <string_view>
 
-#include "tsuya/garment/report.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/progress.h"
+
+namespace tsuya::garment {
+struct Report;
+}
 
 namespace tsuya::program {
 
@@ -16,8 +20,8 @@ enum class ProgressMode { bar, plain, json, off };
 /// `auto` (a bar where stderr is a terminal, else off), `plain`, `json`, `off`.
 ProgressMode parse_progress_mode(const std::string &name);
 
-/// Sets the flag that `Console::progress` hands out when SIGINT or SIGTERM arrives; a second one
-/// ends the process.
+/// Sets the flag that `Console::progress` hands out when SIGINT, SIGTERM or SIGHUP arrives; a
+/// second one of its kind ends the process.
 void watch_signals();
 
 class Console {
@@ -27,6 +31,8 @@ class Console {
     Progress progress();
 
     void error(const Problem &problem);
+    /// All problems of an error, one a line
+    void errors(const Error &error);
     void error(std::string_view text);
     void warning(std::string_view text);
     /// The findings that may show in the picture.

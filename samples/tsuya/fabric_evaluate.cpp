@@ -9,6 +9,7 @@
 #include "command.h"
 #include "json_file.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/model.h"
 
@@ -22,54 +23,54 @@ struct Result {
     Accuracy accuracy;
 };
 
-class EvaluateCommand final : public Command {
-  public:
-    explicit EvaluateCommand(CLI::App &fabric)
-        : app_(*fabric.add_subcommand("evaluate", "How far a fabric lies from a table")) {
-        app_.footer("Example:\n"
-                    "  tsuya fabric evaluate black_satin.fabric.toml --against black_satin.csv "
-                    "--model all\n"
-                    "`tsuya list models` names the models. The dye has no part: only the specular "
-                    "reflectance is compared.");
-        app_.add_option("fabric", fabric_, "F.fabric.toml")->required();
-        app_.add_option("--against", table_, "TABLE.csv of reflectance")->required();
-        app_.add_option("--model", model_,
-                        "A model, or all that the fabric has the data of; the fabric's own");
-        app_.add_option("--values", values_,
-                        "Also VALUES.csv: every row of the table beside the models' values");
-        app_.add_flag("--json", json_, "As JSON");
+struct FabricEvaluate final : Command {
+    std::filesystem::path fabric_file{}, table_file{}, values_file{};
+    std::string model_name{};
+    bool json = false;
+
+    void options(Options &o) override {
+        o.argument(&fabric_file, "F.fabric.toml", "fabric").required();
+        o.option("--against", &table_file, "TABLE.csv", "measured reflectance").required();
+        o.option("--model", &model_name, "NAME",
+                 "model, or all that the fabric has the data of; without it, the fabric's own");
+        o.option("--values", &values_file, "VALUES.csv",
+                 "file for every row of the table beside the models' values");
+        o.flag("--json", &json, "print the error measures as JSON");
+        o.example("tsuya fabric evaluate black_satin.fabric.toml --against black_satin.csv "
+                  "--model all");
+        o.notes("`tsuya list models` names the models. The specular reflectance is compared, "
+                "without the dye.");
     }
 
-    bool called() const override { return app_.parsed(); }
-
     Status run(Console &console) override {
-        const Fabric fabric = read_fabric(fabric_);
-        const ReflectanceTable table = read_reflectance_table(table_);
+        if (!values_file.empty())
+            scene::check_output_file(values_file, {".csv"});
+        const Fabric fabric = read_fabric(fabric_file);
+        const ReflectanceTable table = read_reflectance_table(table_file);
         if (std::any_of(fabric.dye.value.begin(), fabric.dye.value.end(),
                         [](double v) { return v > 0; }))
-            console.warning(fabric_.string() + ": the fabric has a dye, which is not compared");
-        std::vector<std::string> models{model_.empty() ? fabric.model : model_};
-        if (model_ == "all") {
+            console.warning(fabric_file.string() + ": the fabric has a dye, which is not compared");
+        std::vector<std::string> models{model_name.empty() ? fabric.model : model_name};
+        if (model_name == "all") {
             models.clear();
             for (const ModelName &model : model_names())
                 if (has_data_of(std::string(model.name), fabric))
                     models.emplace_back(model.name);
         }
-        if (!values_.empty())
-            scene::prepare_output_file(values_, {".csv"});
+        if (!values_file.empty())
+            scene::prepare_output_file(values_file, {".csv"});
         std::vector<Result> results;
         std::vector<BrdfFunction> functions;
         for (const std::string &model : models) {
-            functions.push_back(make_model(model, fabric, fabric_.string()));
+            functions.push_back(make_model(model, fabric, fabric_file.string()));
             results.push_back({model, measure_accuracy(table, functions.back())});
         }
-        if (!values_.empty())
+        if (!values_file.empty())
             write_values(table, models, functions);
-        json_ ? print_json(results) : print_text(results);
+        json ? print_json(results) : print_text(results);
         return kDone;
     }
 
-  private:
     void write_values(const ReflectanceTable &table, const std::vector<std::string> &models,
                       const std::vector<BrdfFunction> &functions) const {
         std::ostringstream out;
@@ -91,14 +92,14 @@ class EvaluateCommand final : public Command {
                                 direction(row.theta_r, row.phi_r));
         }
         out << "\n";
-        write_file(values_, out.str());
+        write_file(values_file, out.str());
     }
 
     void print_json(const std::vector<Result> &results) const {
-        Json json{{"schema", "tsuya-fabric-evaluate 1"},
-                  {"fabric", fabric_.string()},
-                  {"table", table_.string()},
-                  {"results", Json::array()}};
+        Json numbers{{"schema", "tsuya-fabric-evaluate 1"},
+                     {"fabric", fabric_file.string()},
+                     {"table", table_file.string()},
+                     {"results", Json::array()}};
         for (const Result &result : results) {
             Json directions = Json::array();
             for (const LightAccuracy &light : result.accuracy.directions) {
@@ -108,11 +109,11 @@ class EvaluateCommand final : public Command {
                 direction.update(json_of(light.error));
                 directions.push_back(std::move(direction));
             }
-            json["results"].push_back({{"model", result.model},
-                                       {"mean", json_of(result.accuracy.mean)},
-                                       {"directions", std::move(directions)}});
+            numbers["results"].push_back({{"model", result.model},
+                                          {"mean", json_of(result.accuracy.mean)},
+                                          {"directions", std::move(directions)}});
         }
-        std::cout << json.dump(2) << "\n";
+        std::cout << numbers.text() << "\n";
     }
 
     static void print_text(const std::vector<Result> &results) {
@@ -144,17 +145,10 @@ class EvaluateCommand final : public Command {
         }
         std::cout << "\n";
     }
-
-    CLI::App &app_;
-    std::filesystem::path fabric_{}, table_{}, values_{};
-    std::string model_{};
-    bool json_ = false;
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_fabric_evaluate(CLI::App &fabric) {
-    return std::make_unique<EvaluateCommand>(fabric);
-}
+std::unique_ptr<Command> make_fabric_evaluate() { return std::make_unique<FabricEvaluate>(); }
 
 } // namespace tsuya::program

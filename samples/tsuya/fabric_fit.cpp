@@ -4,9 +4,8 @@
 #include <iomanip>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "command.h"
+#include "json.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
@@ -17,56 +16,61 @@
 namespace tsuya::program {
 namespace {
 
-class FitCommand final : public Command {
-  public:
-    explicit FitCommand(CLI::App &fabric)
-        : fit_(*fabric.add_subcommand("fit", "From a few measured views to a fabric")) {
-        fit_.footer("Example:\n  tsuya fabric fit black_satin.csv -o black_satin.fabric.toml\n"
-                    "The rows with theta_i = 0 are fitted; the residual of each is printed. Rows "
-                    "under oblique light are\nheld against the fabric's model, or fitted as well "
-                    "by the model yarn: tsuya fabric fit ... --use all");
-        fit_.add_option("table", table_, "TABLE.csv of reflectance")->required();
-        fit_.add_option("-o,--output", output_, "F.fabric.toml")->required();
-        fit_.add_option("--name", name_, "Of the fabric; the file's, if not given");
-        fit_.add_option("--f0", f0_, "Reflectance of the fibre at normal incidence")
-            ->check(CLI::Range(1e-6, 1.0));
-        fit_.add_option("--use", use_,
-                        "normal: rows with theta_i = 0; all: for the model yarn the others too")
-            ->check(CLI::IsMember({"normal", "all"}))
-            ->capture_default_str();
-        fit_.add_flag("--json", json_, "Residuals as JSON");
+struct FabricFit final : Command {
+    std::filesystem::path table_file{}, output{};
+    std::string name{}, use = "normal";
+    std::optional<double> f0{};
+    bool json = false;
+
+    void options(Options &o) override {
+        o.argument(&table_file, "TABLE.csv", "measured reflectance").required();
+        o.option("-o,--output", &output, "F.fabric.toml", "the fabric").required();
+        o.option("--name", &name, "NAME", "name of the fabric; without it, that of the table");
+        o.option("--f0", &f0, "F0", "reflectance of the fibre at normal incidence").range(1e-6, 1);
+        o.option(
+             "--use", &use, "ROWS",
+             "rows that are fitted: normal, those with theta_i = 0; all, for the model yarn the "
+             "others too")
+            .one_of({"normal", "all"});
+        o.flag("--json", &json, "print the residuals as JSON");
+        o.example("tsuya fabric fit black_satin.csv -o black_satin.fabric.toml");
+        o.notes("TABLE.csv has the columns theta_i_deg, phi_i_deg (towards the light), "
+                "theta_r_deg, phi_r_deg (towards the viewer), brdf_per_sr (without the cosine) and "
+                "optionally sigma_per_sr (its standard error). theta is counted from the normal, "
+                "phi from the weft. A line `# symmetry: orthotropic`, `half-turn` or `none` before "
+                "them declares the symmetry.\n"
+                "The residual of each fitted row is printed. Rows under oblique light are compared "
+                "with the fabric's model; --use all fits the model yarn to them as well.");
     }
 
-    bool called() const override { return fit_.parsed(); }
-
     Status run(Console &console) override {
-        const ReflectanceTable table = read_reflectance_table(table_);
+        scene::check_output_file(output, {".toml"});
+        const ReflectanceTable table = read_reflectance_table(table_file);
         if (!table.symmetry_declared)
-            console.warning(table_.string() +
+            console.warning(table_file.string() +
                             ": the symmetry is not declared, orthotropic is assumed; "
                             "declare it by a line such as `# symmetry: half-turn`");
-        Fabric fabric{.name = name_.empty() ? table_.stem().string() : name_, .keys = table.keys};
-        fabric.bard = Bard::fit(table, table_.string());
-        if (f0_ > 0)
-            fabric.f0 = f0_;
+        Fabric fabric{.name = name.empty() ? table_file.stem().string() : name, .keys = table.keys};
+        fabric.bard = Bard::fit(table, table_file.string());
+        if (f0)
+            fabric.f0 = f0;
         Report report{.bard = *fabric.bard};
-        if (use_ == "all") {
+        if (use == "all") {
             report.before = oblique(table, make_brdf("yarn", fabric, "fabric"));
             fabric.yarn = fit_yarn_lobes(*fabric.bard, table, fabric.f0.value_or(YarnLobes{}.f0),
-                                         table_.string());
+                                         table_file.string());
             report.yarn = fabric.yarn;
         }
         if (const Material material = resolve(fabric, "fabric"); material.specular)
             report.after = oblique(table, *material.specular);
         report.f0 = fabric.bard->peak() > 0 ? f0_of(fabric, "fabric") : 1;
-        scene::prepare_output_file(output_, {".toml"});
-        write_fabric(fabric, output_);
-        json_ ? print_json(report) : print_text(report);
+        scene::prepare_output_file(output, {".toml"});
+        write_fabric(fabric, output);
+        json ? print_json(report) : print_text(report);
         warn(report, console);
         return kDone;
     }
 
-  private:
     // Views under oblique light beside a model.
     struct Oblique {
         std::vector<ModelledView> views{};
@@ -105,7 +109,7 @@ class FitCommand final : public Command {
             return std::to_string(std::lround(angle / kDegree));
         };
         const auto say = [&](const std::string &view, double measured, double fitted) {
-            console.warning(table_.string() + ": the view at " + view +
+            console.warning(table_file.string() + ": the view at " + view +
                             " degrees does not fit the others: measured " +
                             std::to_string(measured) + ", fitted " + std::to_string(fitted) +
                             " 1/sr");
@@ -176,47 +180,47 @@ class FitCommand final : public Command {
 
     static void print_json(const Report &report) {
         const Bard &bard = report.bard;
-        nlohmann::ordered_json json{{"schema", "tsuya-fabric-fit 1"},
-                                    {"symmetry", name_of(bard.symmetry())},
-                                    {"residual", bard.residual()},
-                                    {"asymmetry", bard.asymmetry()},
-                                    {"shown_tilt_deg", shown_tilt(bard) / kDegree},
-                                    {"feature_points", nlohmann::ordered_json::array()},
-                                    {"misfits", nlohmann::ordered_json::array()},
-                                    {"views", nlohmann::ordered_json::array()}};
+        Json numbers{{"schema", "tsuya-fabric-fit 1"},
+                     {"symmetry", name_of(bard.symmetry())},
+                     {"residual", bard.residual()},
+                     {"asymmetry", bard.asymmetry()},
+                     {"shown_tilt_deg", shown_tilt(bard) / kDegree},
+                     {"feature_points", Json::array()},
+                     {"misfits", Json::array()},
+                     {"views", Json::array()}};
         for (const FeaturePoint &p : feature_points(bard, report.f0))
-            json["feature_points"].push_back({{"name", p.name},
-                                              {"theta_deg", p.theta / kDegree},
-                                              {"phi_deg", p.phi / kDegree},
-                                              {"brdf_per_sr", p.brdf_per_sr},
-                                              {"facets_per_sr", p.facets_per_sr},
-                                              {"extrapolated", p.extrapolated}});
+            numbers["feature_points"].push_back({{"name", p.name},
+                                                 {"theta_deg", p.theta / kDegree},
+                                                 {"phi_deg", p.phi / kDegree},
+                                                 {"brdf_per_sr", p.brdf_per_sr},
+                                                 {"facets_per_sr", p.facets_per_sr},
+                                                 {"extrapolated", p.extrapolated}});
         for (const BardView &view : misfits(bard))
-            json["misfits"].push_back(
+            numbers["misfits"].push_back(
                 {{"theta_deg", view.theta / kDegree}, {"phi_deg", view.phi / kDegree}});
         for (const BardView &view : bard.views())
-            json["views"].push_back(
+            numbers["views"].push_back(
                 {{"theta_deg", view.theta / kDegree},
                  {"phi_deg", view.phi / kDegree},
                  {"brdf_per_sr", view.brdf_per_sr},
                  {"fitted_per_sr", view.fitted_per_sr},
                  {"log10_ratio", log_ratio(view.fitted_per_sr, view.brdf_per_sr)}});
         if (!report.after.views.empty())
-            json["oblique"] = json_of_oblique(report);
-        std::cout << json.dump(2) << "\n";
+            numbers["oblique"] = json_of_oblique(report);
+        std::cout << numbers.text() << "\n";
     }
 
-    static nlohmann::ordered_json json_of_oblique(const Report &report) {
-        nlohmann::ordered_json json{{"lights", report.after.lights},
-                                    {"fitted", report.yarn.has_value()},
-                                    {"l2_cos", report.after.l2_cos}};
+    static Json json_of_oblique(const Report &report) {
+        Json numbers{{"lights", report.after.lights},
+                     {"fitted", report.yarn.has_value()},
+                     {"l2_cos", report.after.l2_cos}};
         if (report.yarn)
-            json.update({{"l2_cos_from_above", report.before.l2_cos},
-                         {"pit_weft", report.yarn->pit[0]},
-                         {"pit_warp", report.yarn->pit[1]}});
-        json["views"] = nlohmann::ordered_json::array();
+            numbers.update({{"l2_cos_from_above", report.before.l2_cos},
+                            {"pit_weft", report.yarn->pit[0]},
+                            {"pit_warp", report.yarn->pit[1]}});
+        numbers["views"] = Json::array();
         for (const ModelledView &view : report.after.views)
-            json["views"].push_back(
+            numbers["views"].push_back(
                 {{"theta_i_deg", view.row.theta_i / kDegree},
                  {"phi_i_deg", view.row.phi_i / kDegree},
                  {"theta_deg", view.row.theta_r / kDegree},
@@ -224,20 +228,12 @@ class FitCommand final : public Command {
                  {"brdf_per_sr", view.row.brdf_per_sr},
                  {"fitted_per_sr", view.fitted_per_sr},
                  {"log10_ratio", log_ratio(view.fitted_per_sr, view.row.brdf_per_sr)}});
-        return json;
+        return numbers;
     }
-
-    CLI::App &fit_;
-    std::filesystem::path table_{}, output_{};
-    std::string name_{}, use_ = "normal";
-    double f0_ = 0;
-    bool json_ = false;
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_fabric_fit(CLI::App &fabric) {
-    return std::make_unique<FitCommand>(fabric);
-}
+std::unique_ptr<Command> make_fabric_fit() { return std::make_unique<FabricFit>(); }
 
 } // namespace tsuya::program

@@ -115,24 +115,21 @@ std::vector<Count> counts() {
     return result;
 }
 
-class PaperCommand final : public Command {
-  public:
-    explicit PaperCommand(CLI::App &fabric)
-        : app_(*fabric.add_subcommand("paper", "The paper's tables beside ours")) {
-        app_.footer("Example:\n  tsuya fabric paper\n"
-                    "Tables 1-3 of Takeda, Sakaguchi and Tanaka for their black satin: measured, "
-                    "their estimate, and Eq. 7 as it stands.");
-        app_.add_flag("--json", json_, "As JSON");
+struct FabricPaper final : Command {
+    bool json = false;
+
+    void options(Options &o) override {
+        o.flag("--json", &json, "print the tables as JSON");
+        o.example("tsuya fabric paper");
+        o.notes("Tables 1-3 of Takeda, Sakaguchi and Tanaka for their black satin: measured, their "
+                "estimate, and Eq. 7 as it stands.");
     }
 
-    bool called() const override { return app_.parsed(); }
-
     Status run(Console &) override {
-        json_ ? print_json() : print_text();
+        json ? print_json() : print_text();
         return kDone;
     }
 
-  private:
     static void print_text() {
         const auto per_cent = [](double a, double b) { return 100 * (a / b - 1); };
         std::cout << std::fixed;
@@ -164,10 +161,10 @@ class PaperCommand final : public Command {
     }
 
     static void print_json() {
-        Json json{{"schema", "tsuya-fabric-paper 1"},
-                  {"f0", kF0},
-                  {"tables", Json::array()},
-                  {"measurements", Json::array()}};
+        Json numbers{{"schema", "tsuya-fabric-paper 1"},
+                     {"f0", kF0},
+                     {"tables", Json::array()},
+                     {"measurements", Json::array()}};
         for (const PaperTable &table : kTables) {
             Json rows = Json::array();
             for (const Row &row : rows_of(table)) {
@@ -180,27 +177,22 @@ class PaperCommand final : public Command {
                     entry["ours_at_measured_mirror_per_sr"] = *row.at_measured_mirror;
                 rows.push_back(std::move(entry));
             }
-            json["tables"].push_back({{"name", table.name},
-                                      {"point", table.title},
-                                      {"note", table.note},
-                                      {"rows", std::move(rows)}});
+            numbers["tables"].push_back({{"name", table.name},
+                                         {"point", table.title},
+                                         {"note", table.note},
+                                         {"rows", std::move(rows)}});
         }
         for (const Count &count : counts())
-            json["measurements"].push_back({{"spacing_deg", count.spacing_deg},
-                                            {"normal_incidence", count.views},
-                                            {"every_light", count.all},
-                                            {"times_fewer", count.all / count.views}});
-        std::cout << json.dump(2) << "\n";
+            numbers["measurements"].push_back({{"spacing_deg", count.spacing_deg},
+                                               {"normal_incidence", count.views},
+                                               {"every_light", count.all},
+                                               {"times_fewer", count.all / count.views}});
+        std::cout << numbers.text() << "\n";
     }
-
-    CLI::App &app_;
-    bool json_ = false;
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_fabric_paper(CLI::App &fabric) {
-    return std::make_unique<PaperCommand>(fabric);
-}
+std::unique_ptr<Command> make_fabric_paper() { return std::make_unique<FabricPaper>(); }
 
 } // namespace tsuya::program

@@ -28,121 +28,113 @@ Image encoded(Image linear) {
     return linear;
 }
 
-class ShowCommand final : public Command {
-  public:
-    explicit ShowCommand(CLI::App &fabric)
-        : app_(*fabric.add_subcommand("show", "Draw what a fabric reflects, or its weave")) {
-        app_.footer(
-            "Examples:\n  tsuya fabric show black_satin.fabric.toml -o lobes.svg\n"
-            "  tsuya fabric show black_satin.fabric.toml --view rings --model takeda,half_vector "
-            "--against all.csv -o rings.svg\n"
-            "  tsuya fabric show --weave \"silk charmeuse\" -o charmeuse.png\n"
+struct FabricShow final : Command {
+    std::filesystem::path fabric{}, output{}, table{};
+    std::vector<std::string> models{};
+    std::string view = "lobes", weave_name{};
+    std::optional<double> theta_i_deg{};
+    double tilt_deg = 0, across_mm = 0;
+    lab::WeavePictureSettings settings{};
+
+    void options(Options &o) override {
+        Option &of_fabric = o.argument(&fabric, "F.fabric.toml", "fabric");
+        Option &of_weave = o.option("--weave", &weave_name, "WEAVE",
+                                    "WEAVE.toml, DRAFT.wif or a preset, in place of a fabric");
+        o.one_of(of_fabric, of_weave);
+        o.option("-o,--output", &output, "PICTURE", "PICTURE.svg or .png").required();
+        o.option("--view", &view, "VIEW", "what is drawn of a fabric")
+            .one_of({"lobes", "bodies", "map", "rings"})
+            .needs(of_fabric);
+        o.option("--model", &models, "A,B,...",
+                 "model, several for `rings`; without it, the fabric's own")
+            .with_commas()
+            .needs(of_fabric);
+        o.option("--theta-i", &theta_i_deg, "DEGREES",
+                 "polar angle of the light of `rings`; 45 without it")
+            .range(0, 89)
+            .needs(of_fabric);
+        o.option("--against", &table, "TABLE.csv", "measured reflectance, drawn as points")
+            .needs(of_fabric);
+        o.option("--tilt", &tilt_deg, "DEGREES",
+                 "angle by which the view of the weave is tilted from its normal")
+            .range(0, 70)
+            .needs(of_weave);
+        o.option("--across", &across_mm, "MM",
+                 "millimetres of cloth in the picture; 0 is one repeat")
+            .range(0, 1000)
+            .needs(of_weave);
+        o.option("--size", &settings.width, "PIXELS", "width and height of the weave's picture")
+            .range(64, 4096)
+            .needs(of_weave);
+        o.example("tsuya fabric show black_satin.fabric.toml -o lobes.svg\n"
+                  "tsuya fabric show black_satin.fabric.toml --view rings --against all.csv -o "
+                  "rings.svg\n"
+                  "tsuya fabric show --weave \"silk charmeuse\" -o charmeuse.png");
+        o.notes(
             "Views of a fabric, which need gnuplot: `lobes` in the warp, bias and weft planes, and "
             "the map of the measured views; `bodies`, the lobes in space from three sides; `map`, "
             "the measured views and the tilts of the facets; `rings`, around the normal at theta_r "
-            "30 and 60 degrees.\n--weave draws the filaments close up, beside the draft of the "
-            "same part of the cloth.");
-        CLI::Option_group &what = *app_.add_option_group("What");
-        CLI::Option *const lobes = what.add_option("fabric", fabric_, "F.fabric.toml");
-        CLI::Option *const weave =
-            what.add_option("--weave", weave_, "WEAVE.toml, DRAFT.wif or a preset, in its place");
-        what.require_option(1);
-        app_.add_option("-o,--output", output_, "PICTURE.svg or .png")->required();
-        app_.add_option("--view", view_, "What is drawn of a fabric")
-            ->check(CLI::IsMember({"lobes", "bodies", "map", "rings"}))
-            ->capture_default_str()
-            ->needs(lobes);
-        app_.add_option("--model", models_, "Else the fabric's own; of `rings` several: A,B")
-            ->delimiter(',')
-            ->needs(lobes);
-        app_.add_option("--theta-i", theta_i_deg_, "Degrees, of the light of `rings`")
-            ->check(CLI::Range(0.0, 89.0))
-            ->capture_default_str()
-            ->needs(lobes);
-        app_.add_option("--against", table_, "TABLE.csv, drawn as points")->needs(lobes);
-        app_.add_option("--tilt", tilt_deg_, "Degrees that the weave is seen from the side")
-            ->check(CLI::Range(0.0, 70.0))
-            ->capture_default_str()
-            ->needs(weave);
-        app_.add_option("--across", across_mm_, "Millimetres of cloth in the picture; 0: a repeat")
-            ->check(CLI::Range(0.0, 1000.0))
-            ->capture_default_str()
-            ->needs(weave);
-        app_.add_option("--size", settings_.width, "Pixels of a side of the weave's picture")
-            ->check(CLI::Range(64, 4096))
-            ->capture_default_str()
-            ->needs(weave);
+            "30 and 60 degrees.\n--weave draws the filaments, beside the draft of the same part "
+            "of the cloth.");
     }
 
-    bool called() const override { return app_.parsed(); }
-
     Status run(Console &console) override {
-        weave_.empty() ? show_fabric() : show_weave(console);
-        std::cout << output_.string() << "\n";
+        scene::check_output_file(output, {".png", ".svg"});
+        weave_name.empty() ? show_fabric() : show_weave(console);
+        std::cout << output.string() << "\n";
         return kDone;
     }
 
-  private:
     void show_fabric() const {
         refuse_unused();
-        scene::RingPlot plot{.fabric = read_fabric(fabric_), .models = models_};
+        scene::RingPlot plot{.fabric = read_fabric(fabric), .models = models};
         if (plot.models.empty())
             plot.models = {plot.fabric.model};
-        if (!table_.empty())
-            plot.against = read_reflectance_table(table_);
-        plot.theta_i = theta_i_deg_ * kDegree;
-        if (view_ == "lobes")
-            scene::plot_lobes({plot.fabric, plot.models.front(), plot.against}, output_);
-        else if (view_ == "bodies")
-            scene::plot_bodies(plot.fabric, plot.models.front(), output_);
-        else if (view_ == "map")
-            scene::plot_maps(plot.fabric, output_);
+        if (!table.empty())
+            plot.against = read_reflectance_table(table);
+        plot.theta_i = theta_i_deg.value_or(45) * kDegree;
+        if (view == "lobes")
+            scene::plot_lobes({plot.fabric, plot.models.front(), plot.against}, output);
+        else if (view == "bodies")
+            scene::plot_bodies(plot.fabric, plot.models.front(), output);
+        else if (view == "map")
+            scene::plot_maps(plot.fabric, output);
         else
-            scene::plot_rings(plot, output_);
+            scene::plot_rings(plot, output);
     }
 
     // Options that the view does not look at.
     void refuse_unused() const {
         const auto refuse = [&](bool given, const char *option, const char *views) {
             if (given)
-                throw Error({std::string(option) + " has no effect on --view " + view_, option,
+                throw Error({std::string(option) + " has no effect on --view " + view, option,
                              std::string("expected with ") + views});
         };
-        const bool rings = view_ == "rings", lobes = view_ == "lobes";
-        refuse(!rings && models_.size() > 1, "--model with several names", "--view rings");
-        refuse(view_ == "map" && !models_.empty(), "--model", "another view than map");
-        refuse(!rings && !lobes && !table_.empty(), "--against", "--view lobes or rings");
-        refuse(!rings && app_.count("--theta-i") > 0, "--theta-i", "--view rings");
+        const bool rings = view == "rings", lobes = view == "lobes";
+        refuse(!rings && models.size() > 1, "--model with several names", "--view rings");
+        refuse(view == "map" && !models.empty(), "--model", "another view than map");
+        refuse(!rings && !lobes && !table.empty(), "--against", "--view lobes or rings");
+        refuse(!rings && theta_i_deg.has_value(), "--theta-i", "--view rings");
     }
 
     void show_weave(Console &console) {
-        const lab::Weave weave = weave_named(weave_);
-        scene::prepare_output_file(output_, {".png", ".svg"});
-        settings_.height = settings_.width;
-        settings_.across = across_mm_ * 1e-3;
-        settings_.tilt = tilt_deg_ * kDegree;
+        const lab::Weave weave = weave_named(weave_name);
+        scene::prepare_output_file(output, {".png", ".svg"});
+        settings.height = settings.width;
+        settings.across = across_mm * 1e-3;
+        settings.tilt = tilt_deg * kDegree;
         std::ostringstream bar;
-        bar << "the bar is " << std::round(lab::scale_bar(weave, settings_) * 1e9) * 1e-6 << " mm";
+        bar << "the bar is " << std::round(lab::scale_bar(weave, settings) * 1e9) * 1e-6 << " mm";
         scene::write_picture_row(
             weave.name,
-            {{encoded(lab::weave_picture(weave, settings_, console.progress())), bar.str()},
-             {encoded(lab::draft_picture(weave, settings_)), "dark: warp on the face"}},
-            output_);
+            {{encoded(lab::weave_picture(weave, settings, console.progress())), bar.str()},
+             {encoded(lab::draft_picture(weave, settings)), "dark: warp on the face"}},
+            output);
     }
-
-    CLI::App &app_;
-    std::filesystem::path fabric_{}, output_{}, table_{};
-    std::vector<std::string> models_{};
-    std::string view_ = "lobes", weave_{};
-    double theta_i_deg_ = 45;
-    double tilt_deg_ = 0, across_mm_ = 0;
-    lab::WeavePictureSettings settings_{};
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_fabric_show(CLI::App &fabric) {
-    return std::make_unique<ShowCommand>(fabric);
-}
+std::unique_ptr<Command> make_fabric_show() { return std::make_unique<FabricShow>(); }
 
 } // namespace tsuya::program

@@ -2,13 +2,16 @@
 
 #include <cmath>
 
+#include "tsuya/garment/report.h"
+#include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/file.h"
+#include "tsuya/sdk/render.h"
 
 namespace tsuya::program {
 namespace {
 
-Json json_of(const glm::dvec3 &v) { return {v.x, v.y, v.z}; }
+Json json_of(const glm::dvec3 &v) { return Json::array({v.x, v.y, v.z}); }
 
 Json json_of(const garment::Percentiles &p) {
     return {{"p5", p.p5}, {"p50", p.p50}, {"p95", p.p95}};
@@ -123,7 +126,7 @@ double degrees_of(double angle) {
 }
 
 void write_json(const std::filesystem::path &file, const Json &json) {
-    write_file(file, json.dump(2) + "\n");
+    write_file(file, json.text() + "\n");
 }
 
 } // namespace tsuya::program

@@ -1,17 +1,21 @@
 #pragma once
-// What commands tell machines.
+/// \file
+/// What commands tell machines.
 
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
+#include "json.h"
 
-#include "tsuya/garment/report.h"
-#include "tsuya/sdk/accuracy.h"
-#include "tsuya/sdk/render.h"
+namespace tsuya {
+struct ErrorMeasures;
+struct RenderStats;
+} // namespace tsuya
+
+namespace tsuya::garment {
+struct Report;
+}
 
 namespace tsuya::program {
-
-using Json = nlohmann::ordered_json;
 
 /// `tsuya-render-stats 1`
 Json json_of(const RenderStats &stats);

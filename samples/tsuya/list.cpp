@@ -22,28 +22,28 @@ struct Entry {
     std::string description;
 };
 
-class ListCommand final : public Command {
-  public:
-    explicit ListCommand(CLI::App &program)
-        : app_(*program.add_subcommand("list", "What can be named")) {
-        app_.footer("Example:\n  tsuya list lamps");
-        app_.add_option("kind", kind_, "lamps, fabrics, weaves, dyes, models or views")
-            ->required()
-            ->check(CLI::IsMember({"lamps", "fabrics", "weaves", "dyes", "models", "views"}));
-        app_.add_flag("--json", json_, "As JSON");
-        app_.add_option("--data", data_, "Folder of the sample data");
-    }
+struct List final : Command {
+    std::string kind{};
+    bool json = false;
+    std::filesystem::path data{};
 
-    bool called() const override { return app_.parsed(); }
+    void options(Options &o) override {
+        o.argument(&kind, "KIND", "kind of thing")
+            .required()
+            .one_of({"lamps", "fabrics", "weaves", "dyes", "models", "views"});
+        o.flag("--json", &json, "print the names as JSON");
+        o.option("--data", &data, "DIR", "folder of the sample data");
+        o.example("tsuya list lamps");
+    }
 
     Status run(Console &) override {
         const std::vector<Entry> list = entries();
-        if (json_) {
-            Json json{{"schema", "tsuya-list 1"}, {"kind", kind_}, {"entries", Json::array()}};
+        if (json) {
+            Json named{{"schema", "tsuya-list 1"}, {"kind", kind}, {"entries", Json::array()}};
             for (const Entry &entry : list)
-                json["entries"].push_back(
+                named["entries"].push_back(
                     {{"name", entry.name}, {"description", entry.description}});
-            std::cout << json.dump(2) << "\n";
+            std::cout << named.text() << "\n";
             return kDone;
         }
         std::size_t width = 0;
@@ -55,7 +55,6 @@ class ListCommand final : public Command {
         return kDone;
     }
 
-  private:
     template <class Describe>
     static std::vector<Entry> described(const std::vector<std::string> &names, Describe describe) {
         std::vector<Entry> list;
@@ -74,18 +73,18 @@ class ListCommand final : public Command {
     }
 
     std::vector<Entry> entries() const {
-        if (kind_ == "lamps")
+        if (kind == "lamps")
             return described(lamp_names(), lamp_description);
-        if (kind_ == "dyes")
+        if (kind == "dyes")
             return described(dye_names(), dye_description);
-        if (kind_ == "views")
+        if (kind == "views")
             return described(view_names(), view_description);
-        if (kind_ == "weaves")
+        if (kind == "weaves")
             return described(lab::weave_names(), weave_description);
-        if (kind_ == "fabrics") {
-            const std::filesystem::path data = scene::data_folder(data_);
-            return described(scene::sample_fabrics(data), [&](const std::string &name) {
-                const Fabric fabric = read_fabric(scene::find_fabric(name, data));
+        if (kind == "fabrics") {
+            const std::filesystem::path folder = scene::data_folder(data);
+            return described(scene::sample_fabrics(folder), [&](const std::string &name) {
+                const Fabric fabric = read_fabric(scene::find_fabric(name, folder));
                 const auto material = fabric.keys.find("material");
                 return material == fabric.keys.end() ? fabric.name : material->second;
             });
@@ -95,17 +94,10 @@ class ListCommand final : public Command {
             models.push_back({std::string(model.name), std::string(model.description)});
         return models;
     }
-
-    CLI::App &app_;
-    std::string kind_{};
-    bool json_ = false;
-    std::filesystem::path data_{};
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_list(CLI::App &program) {
-    return std::make_unique<ListCommand>(program);
-}
+std::unique_ptr<Command> make_list() { return std::make_unique<List>(); }
 
 } // namespace tsuya::program

@@ -1,33 +1,26 @@
 #pragma once
-// Options that several commands have: how a picture is shown.
+/// \file
+/// Options that several commands have.
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
-#include "tsuya/scene/picture.h"
+#include "options.h"
+#include "tsuya/color/config.h"
 
 namespace tsuya::program {
 
-/// --adapt, --view and --exposure.
+/// --adapt, --view and --exposure: how a picture is shown.
 struct LookOptions {
-    std::string adapt = to_string(scene::default_look().adapt);
-    std::string view = scene::default_look().view;
-    double exposure_stops = 0;
-
-    void add_to(CLI::App &app) {
-        app.add_option("--adapt", adapt, "Eye's adaptation to the lamp: none, bradford, cat02")
-            ->capture_default_str();
-        app.add_option("--view", view, "See `tsuya list views`")->capture_default_str();
-        app.add_option("--exposure", exposure_stops, "Stops; 1 doubles the light")
-            ->check(CLI::Range(-20.0, 20.0))
-            ->capture_default_str();
-    }
+    LookOptions();
+    void add_to(Options &options);
     /// Throws Error for unknown names.
-    DisplayOptions look() const {
-        view_description(view);
-        return {.adapt = parse_adaptation(adapt), .view = view, .exposure_stops = exposure_stops};
-    }
+    DisplayOptions look() const;
+
+    std::string adapt, view;
+    double exposure_stops = 0;
 };
+
+/// `--threads`, 0 for all processors
+void add_threads(Options &options, int &threads);
 
 } // namespace tsuya::program

@@ -1,8 +1,7 @@
 // The program `tsuya`: parses, calls the SDK, prints.
 
-#include <algorithm>
+#include <array>
 #include <iostream>
-#include <vector>
 
 #include "command.h"
 #include "tsuya/sdk/error.h"
@@ -12,32 +11,27 @@ namespace {
 using namespace tsuya;
 using namespace tsuya::program;
 
-constexpr const char *kAbout =
-    "Renders garments of silk-like woven fabric under any lamp.\n"
-    "Exit status: 0 done; 1 the input is wrong; 2 the call is wrong; 3 interrupted, what was done "
-    "is saved;\n4 the check that was asked for did not pass.";
-
-std::vector<std::unique_ptr<Command>> make_commands(CLI::App &app) {
-    std::vector<std::unique_ptr<Command>> commands;
-    for (const auto make : {make_tryon, make_render, make_relight, make_compare, make_fabric,
-                            make_garment, make_lab, make_list})
-        commands.push_back(make(app));
-    return commands;
-}
-
-/// The first word names no command: says so better than the parser can.
-bool is_unknown_command(const CLI::App &app, int argc, char **argv, Console &console) {
-    if (argc < 2 || argv[1][0] == '-')
-        return false;
-    std::vector<std::string> known;
-    for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
-        known.push_back(command->get_name());
-    if (std::find(known.begin(), known.end(), argv[1]) != known.end())
-        return false;
-    console.error("unknown command '" + std::string(argv[1]) + "'; " +
-                  accepted_names(argv[1], known));
-    return true;
-}
+constexpr std::array kCommands{
+    CommandEntry{"tryon", "Show a garment in a fabric, dyed and lit", make_tryon},
+    CommandEntry{"render", "Render a scene file to light transport, without lamps", make_render},
+    CommandEntry{"relight", "A picture under a lamp, from one render", make_relight},
+    CommandEntry{"compare", "One render under several lamps, with colour differences",
+                 make_compare},
+    CommandEntry{"fabric", "Make fabrics from measurements or weaves, examine them", nullptr},
+    CommandEntry{"fabric fit", "Fit a fabric to a few measured views", make_fabric_fit},
+    CommandEntry{"fabric simulate", "Measure a weave by a virtual goniometer",
+                 make_fabric_simulate},
+    CommandEntry{"fabric evaluate", "How far the models of a fabric lie from a table",
+                 make_fabric_evaluate},
+    CommandEntry{"fabric show", "Draw what a fabric reflects, or a weave", make_fabric_show},
+    CommandEntry{"fabric paper", "The tables of Takeda et al. beside ours", make_fabric_paper},
+    CommandEntry{"garment", "Examine and subdivide meshes", nullptr},
+    CommandEntry{"garment check", "What is wrong with a mesh", make_garment_check},
+    CommandEntry{"garment subdivide", "The limit surface of a mesh", make_garment_subdivide},
+    CommandEntry{"lab", "Drive the measuring rig", nullptr},
+    CommandEntry{"lab pulse", "Open the shutter for exact times", make_lab_pulse},
+    CommandEntry{"list", "What can be named: lamps, dyes, fabrics, ...", make_list},
+};
 
 int run(Command &command, Console &console) {
     watch_signals();
@@ -51,8 +45,7 @@ int run(Command &command, Console &console) {
         }
         return status;
     } catch (const Error &error) {
-        for (const Problem &problem : error.problems())
-            console.error(problem);
+        console.errors(error);
         return kWrongInput;
     } catch (const Interrupted &interrupted) {
         console.error(interrupted.what());
@@ -67,30 +60,15 @@ int run(Command &command, Console &console) {
 
 int main(int argc, char **argv) {
     Console console;
-    CLI::App app(kAbout, "tsuya");
-    app.set_version_flag("--version", "tsuya " TSUYA_VERSION);
-    app.footer("Example:\n  tsuya tryon -o out        the sample dress under three lamps\n"
-               "`tsuya COMMAND --help` tells more.");
-    app.require_subcommand(1);
-    app.fallthrough();
-    std::string progress = "auto";
-    app.add_option("--progress", progress, "How progress is told on stderr")
-        ->check(CLI::IsMember({"auto", "plain", "json", "off"}))
-        ->capture_default_str();
-    const std::vector<std::unique_ptr<Command>> commands = make_commands(app);
-    if (is_unknown_command(app, argc, argv, console))
-        return kWrongCall;
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError &error) {
-        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
-            return app.exit(error);
-        console.error(std::string(error.what()) + "; see --help");
+        const Call call = parse_call(kCommands, argc, argv);
+        console.set_mode(parse_progress_mode(call.progress));
+        if (call.command)
+            return run(*call.command, console);
+        std::cout << call.text << std::flush;
+        return std::cout ? kDone : kWrongInput;
+    } catch (const WrongCall &wrong) {
+        console.errors(wrong);
         return kWrongCall;
     }
-    console.set_mode(parse_progress_mode(progress));
-    for (const std::unique_ptr<Command> &command : commands)
-        if (command->called())
-            return run(*command, console);
-    return kWrongCall;
 }

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "json_file.h"
+#include "look_options.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/scene_file.h"
@@ -15,63 +16,72 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RenderCommand final : public Command {
-  public:
-    explicit RenderCommand(CLI::App &program)
-        : app_(*program.add_subcommand("render", "Render a scene file, lamp-free")) {
-        app_.footer("Example:\n  tsuya render dress.scene.toml -o dress.exr --spp 128\n"
-                    "Options take the place of the scene's values. An interrupted render leaves "
-                    "what it has in OUT.exr,\nand OUT.exr.checkpoint for --resume. The lamps of "
-                    "the scene's [output] give OUT-LAMP.png.");
-        app_.add_option("scene", scene_, "SCENE.toml")->required();
-        CLI::Option *output = app_.add_option("-o,--output", output_, "OUT.exr");
-        auto *spp =
-            app_.add_option("--spp", spp_, "Samples per pixel")->check(CLI::Range(1, 65536));
-        auto *error = app_.add_option("--error", error_, "Until the mean relative error is below")
-                          ->check(CLI::Range(1e-6, 1.0));
-        auto *time = app_.add_option("--time", seconds_, "Seconds")->check(CLI::Range(1e-3, 1e6));
-        spp->excludes(error)->excludes(time);
-        error->excludes(time);
-        app_.add_option("--channels", channels_, "8, 16 or 32")->check(CLI::IsMember({8, 16, 32}));
-        app_.add_option("--threads", threads_, "0: all")->check(CLI::Range(0, 4096));
-        app_.add_option("--seed", seed_, "Of the noise");
-        app_.add_option("--crop", crop_, "X0,Y0,X1,Y1 in pixels, half open")
-            ->delimiter(',')
-            ->expected(4);
-        app_.add_option("--aov", aovs_, "Further pictures: coverage,depth,normal,warp,object")
-            ->delimiter(',')
-            ->check(CLI::IsMember(aov_names()));
-        app_.add_option("--tolerance-px", tolerance_px_,
-                        "PIXELS that triangles may depart from the limit surface")
-            ->check(CLI::Range(1e-3, 1e3));
-        app_.add_flag("--resume", resume_, "Go on from OUT.exr.checkpoint");
-        app_.add_flag("--explain", explain_, "Print what would be done, and do not render");
-        app_.add_option("--stats", stats_, "FILE.json of what was done")->needs(output);
+constexpr int kMostSamples = 65536;
+
+struct Render final : Command {
+    fs::path scene{}, output{}, stats{};
+    std::optional<int> samples{}, channels{}, threads{};
+    std::optional<double> error{}, seconds{}, tolerance_px{};
+    std::optional<std::uint32_t> seed{};
+    std::vector<int> crop{};
+    std::vector<std::string> aovs{};
+    bool resume = false, explains = false;
+
+    void options(Options &o) override {
+        o.argument(&scene, "SCENE.toml", "scene file").required();
+        const Option &out = o.option("-o,--output", &output, "OUT.exr",
+                                     "spectral light transport; required unless --explain");
+        Option &spp = o.option("--spp", &samples, "N", "samples per pixel").range(1, kMostSamples);
+        Option &mean = o.option("--error", &error, "E",
+                                "render until the mean relative standard error is below E")
+                           .range(1e-6, 1);
+        Option &time = o.option("--time", &seconds, "S", "render for S seconds").range(1e-3, 1e6);
+        spp.excludes(mean).excludes(time);
+        mean.excludes(time);
+        o.option("--channels", &channels, "K", "number of spectral channels")
+            .one_of({"8", "16", "32"});
+        o.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
+            .range(0, 4096);
+        o.option("--seed", &seed, "N", "random seed");
+        o.option("--crop", &crop, "X0,Y0,X1,Y1",
+                 "the pixels to render: columns X0 to X1 - 1, rows Y0 to Y1 - 1")
+            .with_commas()
+            .exactly(4);
+        o.option("--aov", &aovs, "A,B,...", "AOVs to write beside the light transport")
+            .with_commas()
+            .one_of(aov_names());
+        o.option("--tolerance-px", &tolerance_px, "PIXELS",
+                 "largest distance of the triangles from the limit surface, in the picture")
+            .range(1e-3, 1e3);
+        o.flag("--resume", &resume, "go on from OUT.exr.checkpoint");
+        o.flag("--explain", &explains, "print the plan, and do not render");
+        o.option("--stats", &stats, "FILE.json", "file for time, rays and error").needs(out);
+        o.example("tsuya render dress.scene.toml -o dress.exr --spp 128");
+        o.notes("Options replace the values of the scene file. An interrupted render leaves what "
+                "it has in OUT.exr, and OUT.exr.checkpoint for --resume. The lamps of the scene's "
+                "[output] give OUT-LAMP.png.");
     }
 
-    bool called() const override { return app_.parsed(); }
-
     Status run(Console &console) override {
-        scene::SceneFile file = scene::read_scene_file(scene_);
+        if (!explains)
+            check_output();
+        scene::SceneFile file = scene::read_scene_file(scene);
         for (std::vector<scene::MeshEntry> *entries : {&file.garments, &file.bodies})
             for (scene::MeshEntry &entry : *entries)
-                if (tolerance_px_)
-                    entry.tolerance_px = tolerance_px_;
+                if (tolerance_px)
+                    entry.tolerance_px = tolerance_px;
         const RenderSettings settings = settings_of(file);
-        if (!explain_)
-            check_places(file);
+        if (!explains)
+            for_each_place(file, scene::check_output_file);
         const scene::BuiltScene built = scene::build_scene(file, console.progress());
         for (const scene::MeshReport &mesh : built.reports)
             console.warnings(mesh.report, mesh.mesh.string());
-        if (explain_) {
-            std::cout << explain(plan(built.scene, settings));
-            for (const scene::MeshReport &mesh : built.reports)
-                std::cout << mesh.report.limit_triangles << " triangles of " << mesh.report.faces
-                          << " faces: " << mesh.mesh.string() << "\n";
+        if (explains) {
+            explain_plan(built, settings);
             return kDone;
         }
-        make_places(file);
-        if (resume_ && !fs::exists(settings.checkpoint))
+        for_each_place(file, scene::prepare_output_file);
+        if (resume && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
         const RenderResult result = render(built.scene, settings, console.progress());
         write_results(file, result);
@@ -84,89 +94,79 @@ class RenderCommand final : public Command {
         return kInterrupted;
     }
 
-  private:
+    static void explain_plan(const scene::BuiltScene &built, const RenderSettings &settings) {
+        std::cout << explain(plan(built.scene, settings));
+        for (const scene::MeshReport &mesh : built.reports)
+            std::cout << mesh.report.limit_triangles << " triangles of " << mesh.report.faces
+                      << " faces: " << mesh.mesh.string() << "\n";
+    }
+
     RenderSettings settings_of(const scene::SceneFile &file) const {
         RenderSettings settings = file.render;
-        if (spp_ || error_ || seconds_)
-            settings.stop = {.samples_per_pixel = spp_.value_or(kMostSamples),
-                             .relative_error = error_,
-                             .seconds = seconds_};
-        settings.channels = channels_.value_or(settings.channels);
-        settings.threads = threads_.value_or(settings.threads);
-        settings.seed = seed_.value_or(settings.seed);
-        if (!aovs_.empty())
-            settings.aovs = aovs_;
-        if (!crop_.empty())
+        if (samples || error || seconds)
+            settings.stop = {.samples_per_pixel = samples.value_or(kMostSamples),
+                             .relative_error = error,
+                             .seconds = seconds};
+        settings.channels = channels.value_or(settings.channels);
+        settings.threads = threads.value_or(settings.threads);
+        settings.seed = seed.value_or(settings.seed);
+        if (!aovs.empty())
+            settings.aovs = aovs;
+        if (!crop.empty())
             settings.crop = crop_of(file);
-        settings.checkpoint = output_;
+        settings.checkpoint = output;
         settings.checkpoint += ".checkpoint";
-        settings.resume = resume_;
+        settings.resume = resume;
         return settings;
     }
 
     std::array<int, 4> crop_of(const scene::SceneFile &file) const {
         const int width = file.framing.width, height = file.framing.height;
-        if (crop_[0] < 0 || crop_[1] < 0 || crop_[0] >= crop_[2] || crop_[1] >= crop_[3] ||
-            crop_[2] > width || crop_[3] > height)
+        if (crop[0] < 0 || crop[1] < 0 || crop[0] >= crop[2] || crop[1] >= crop[3] ||
+            crop[2] > width || crop[3] > height)
             throw Error({"the crop lies outside the picture or is empty", "crop",
                          "expected x0,y0,x1,y1 within " + std::to_string(width) + " x " +
                              std::to_string(height)});
-        return {crop_[0], crop_[1], crop_[2], crop_[3]};
+        return {crop[0], crop[1], crop[2], crop[3]};
     }
 
     fs::path picture_of(const NamedLamp &lamp) const {
-        fs::path path = output_;
-        return path.replace_filename(output_.stem().string() + "-" + lamp.name + ".png");
+        fs::path path = output;
+        return path.replace_filename(output.stem().string() + "-" + lamp.name + ".png");
     }
 
-    /// Before the meshes are read.
-    void check_places(const scene::SceneFile &file) const {
-        if (output_.empty())
+    /// Before the scene is read.
+    void check_output() const {
+        if (output.empty())
             throw Error({"no output is named", "-o", "expected -o OUT.exr, or --explain"});
-        if (output_.extension() != ".exr")
-            throw Error({"the name does not end in .exr", output_.string(), "expected OUT.exr"});
-        for (const NamedLamp &lamp : file.output.lamps)
-            if (fs::is_directory(picture_of(lamp)))
-                throw Error({"it is a folder", picture_of(lamp).string(), "expected another name"});
+        scene::check_output_file(output, {".exr"});
     }
 
-    void make_places(const scene::SceneFile &file) const {
-        scene::prepare_output_file(output_, {".exr"});
+    void for_each_place(const scene::SceneFile &file,
+                        void (*act)(const fs::path &, const std::vector<std::string> &)) const {
+        act(output, {".exr"});
         for (const NamedLamp &lamp : file.output.lamps)
-            scene::prepare_output_file(picture_of(lamp));
-        if (!stats_.empty())
-            scene::prepare_output_file(stats_);
+            act(picture_of(lamp), {});
+        if (!stats.empty())
+            act(stats, {});
     }
 
     void write_results(const scene::SceneFile &file, const RenderResult &result) const {
-        write_spectral_exr(output_, result.image);
-        std::cout << output_.string() << "\n";
+        write_spectral_exr(output, result.image);
+        std::cout << output.string() << "\n";
         if (!result.stats.interrupted)
             for (const NamedLamp &lamp : file.output.lamps) {
                 const fs::path path = picture_of(lamp);
                 write_png(path, scene::picture_under(result.image, {&lamp, 1}, file.output.look));
                 std::cout << path.string() << "\n";
             }
-        if (!stats_.empty())
-            write_json(stats_, json_of(result.stats));
+        if (!stats.empty())
+            write_json(stats, json_of(result.stats));
     }
-
-    static constexpr int kMostSamples = 65536;
-
-    CLI::App &app_;
-    fs::path scene_{}, output_{}, stats_{};
-    std::optional<int> spp_{}, channels_{}, threads_{};
-    std::optional<double> error_{}, seconds_{}, tolerance_px_{};
-    std::optional<std::uint32_t> seed_{};
-    std::vector<int> crop_{};
-    std::vector<std::string> aovs_{};
-    bool resume_ = false, explain_ = false;
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_render(CLI::App &program) {
-    return std::make_unique<RenderCommand>(program);
-}
+std::unique_ptr<Command> make_render() { return std::make_unique<Render>(); }
 
 } // namespace tsuya::program

@@ -6,89 +6,119 @@
 #include "grain_option.h"
 #include "look_options.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/output_file.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::program {
 namespace {
 
-class TryOnCommand final : public Command {
-  public:
-    explicit TryOnCommand(CLI::App &program)
-        : app_(*program.add_subcommand("tryon", "Show a garment in a fabric, dyed and lit")) {
-        app_.footer("Example:\n  tsuya tryon --garment dress.obj --fabric black_satin --dye "
-                    "white,indigo --lamps D65,A -o out\n"
-                    "Without a garment: the sample dress on its mannequin.");
-        CLI::Option *garment =
-            app_.add_option("--garment", garment_, "Mesh (OBJ, glTF, PLY, OFF) with panel UVs");
-        app_.add_option("--frames", job_.frames,
-                        "MESHes with the garment's faces and other positions: pictures of each; "
-                        "without --garment the first is the garment");
-        app_.add_flag("--morph-targets", job_.morph_targets,
-                      "Those of the garment (glTF) are frames too")
-            ->needs(garment);
-        app_.add_option("--body", job_.body, "Mesh that wears it");
-        app_.add_option("--fabric", fabric_, "F.fabric.toml, or a name of `tsuya list fabrics`")
-            ->capture_default_str();
-        app_.add_option("--dye", job_.dyes, "Names of `tsuya list dyes`, #rrggbb, F.csv")
-            ->delimiter(',')
-            ->capture_default_str();
-        app_.add_option("--lamps", job_.lamps, "Names of `tsuya list lamps`, or F.csv")
-            ->delimiter(',')
-            ->capture_default_str();
-        app_.add_option("-o,--output", job_.output, "Folder for the results")->required();
-        app_.add_option("--unit", job_.unit, "Of the meshes: m, dm, cm, mm, in")
-            ->capture_default_str();
-        app_.add_option("--level", job_.level, "Of subdivision")
-            ->check(CLI::Range(0, 8))
-            ->capture_default_str();
-        app_.add_option("--tolerance", job_.tolerance,
-                        "METRES that triangles may depart from the limit surface")
-            ->check(CLI::PositiveNumber)
-            ->excludes("--level");
-        app_.add_option("--tolerance-px", job_.tolerance_px,
-                        "PIXELS of the picture that they may depart")
-            ->check(CLI::Range(1e-3, 1e3))
-            ->excludes("--level");
-        app_.add_option("--grain", grain_,
-                        "Of a garment without UV: vertical, horizontal, or degrees from it");
-        app_.add_option("--max-degenerate-area", job_.max_degenerate_area,
-                        "Share of the garment without a usable UV above which it is an error")
-            ->check(CLI::Range(0.0, 1.0))
-            ->capture_default_str();
-        app_.add_flag("--strict", job_.strict, "Refuse a garment with a warning");
-        app_.add_option("--azimuth", job_.azimuth_deg, "Of the camera, degrees; 0 sees the front")
-            ->check(CLI::Range(-360.0, 360.0))
-            ->capture_default_str();
-        add_quality();
-        look_.add_to(app_);
-        app_.add_option("--data", data_, "Folder of the sample data");
+struct TryOn final : Command {
+    scene::TryOn job{};
+    std::filesystem::path garment{}, data{};
+    std::string fabric = "black_satin", grain{};
+    LookOptions look{};
+    double error = *scene::kTryOnQuality.relative_error;
+    std::optional<int> samples{};
+
+    void options(Options &o) override {
+        add_garment(o);
+        add_cloth(o);
+        o.option("-o,--output", &job.output, "DIR", "folder for the results").required();
+        add_quality(o);
+        look.add_to(o);
+        o.option("--data", &data, "DIR", "folder of the sample data");
+        o.example("tsuya tryon --garment dress.obj --fabric black_satin --dye white,indigo "
+                  "--lamps D65,A -o out");
+        o.notes("Without --garment: the sample dress on its mannequin.");
     }
 
-    bool called() const override { return app_.parsed(); }
+    void add_garment(Options &o) {
+        const Option &mesh = o.option("--garment", &garment, "MESH",
+                                      "mesh with the UV of its panels (OBJ, glTF, PLY, OFF)");
+        o.option("--frames", &job.frames, "MESH...",
+                 "meshes with the garment's faces and other positions, each with pictures of its "
+                 "own; without --garment the first of them is the garment");
+        o.flag("--morph-targets", &job.morph_targets,
+               "take the garment's morph targets (glTF) as frames, too")
+            .needs(mesh);
+        o.option("--body", &job.body, "MESH", "mesh that wears the garment");
+        o.option("--unit", &job.unit, "UNIT", "length unit of the meshes: m, dm, cm, mm, in");
+        const Option &level =
+            o.option("--level", &job.level, "N", "level of subdivision: each edge is cut into 2^N")
+                .range(0, 8);
+        o.option("--tolerance", &job.tolerance, "METRES",
+                 "largest distance of the triangles from the limit surface")
+            .positive()
+            .excludes(level);
+        o.option("--tolerance-px", &job.tolerance_px, "PIXELS",
+                 "the same distance as it is seen in the picture")
+            .range(1e-3, 1e3)
+            .excludes(level);
+        o.option("--grain", &grain, "DIRECTION",
+                 "warp direction of a garment without UV: vertical, horizontal, or degrees from "
+                 "the vertical");
+        o.option("--max-degenerate-area", &job.max_degenerate_area, "SHARE",
+                 "share of the garment's area without a usable UV above which it is an error")
+            .range(0, 1);
+        o.flag("--strict", &job.strict, "refuse a garment with a warning");
+    }
+
+    void add_cloth(Options &o) {
+        o.option("--fabric", &fabric, "FABRIC", "F.fabric.toml, or a name of `tsuya list fabrics`");
+        o.option("--dye", &job.dyes, "A,B,...",
+                 "dyes, one render each: names of `tsuya list dyes`, #rrggbb, F.csv")
+            .with_commas();
+        o.option("--lamps", &job.lamps, "A,B,...",
+                 "lamps, one picture each: names of `tsuya list lamps`, or F.csv")
+            .with_commas();
+        o.option("--azimuth", &job.azimuth_deg, "DEGREES",
+                 "direction of the camera; 0 sees the front")
+            .range(-360, 360);
+    }
+
+    void add_quality(Options &o) {
+        o.option("--width", &job.width, "PIXELS", "width of the pictures").range(1, 32768);
+        o.option("--height", &job.height, "PIXELS", "height of the pictures").range(1, 32768);
+        const Option &relative =
+            o.option("--error", &error, "E",
+                     "render each part of the picture until its relative standard error is below E")
+                .positive();
+        o.option("--spp,--samples", &samples, "N", "samples per pixel, the same everywhere")
+            .range(1, 65536)
+            .excludes(relative);
+        o.option("--channels", &job.render.channels, "K", "number of spectral channels")
+            .one_of({"8", "16", "32"});
+        add_threads(o, job.render.threads);
+        o.option("--seed", &job.render.seed, "N", "random seed");
+    }
 
     Status run(Console &console) override {
-        if (garment_.empty() && !job_.frames.empty()) {
-            garment_ = job_.frames.front();
-            job_.frames.erase(job_.frames.begin());
+        scene::check_output_folder(job.output);
+        if (garment.empty() && !job.frames.empty()) {
+            garment = job.frames.front();
+            job.frames.erase(job.frames.begin());
         }
-        if (garment_.empty() && !job_.body.empty())
+        if (garment.empty() && !job.body.empty())
             throw Error({"a body without a garment", "--body", "expected --garment or --frames"});
-        if (garment_.empty()) {
+        if (garment.empty()) {
             const scene::TryOn sample = scene::sample_try_on(data_folder());
-            job_.garment = sample.garment;
-            job_.body = sample.body;
+            job.garment = sample.garment;
+            job.body = sample.body;
         } else {
-            job_.garment = garment_;
+            job.garment = garment;
         }
-        job_.fabric = scene::find_fabric(fabric_, data_folder());
-        job_.invented_grain = parse_grain(grain_);
-        job_.look = look_.look();
-        job_.render.stop.relative_error = error_;
-        if (samples_)
-            job_.render.stop = {.samples_per_pixel = *samples_};
-        const scene::TryOnResult result = scene::run(job_, console.progress());
-        console.warnings(result.report, job_.garment.string());
+        job.fabric = scene::find_fabric(fabric, data_folder());
+        job.invented_grain = parse_grain(grain);
+        job.look = look.look();
+        job.render.stop.relative_error = error;
+        if (samples)
+            job.render.stop = {.samples_per_pixel = *samples};
+        return report(scene::run(job, console.progress()), console);
+    }
+
+    Status report(const scene::TryOnResult &result, Console &console) const {
+        console.warnings(result.report, job.garment.string());
         for (const RenderStats &stats : result.stats)
             if (stats.not_finite > 0)
                 console.warning(std::to_string(stats.not_finite) +
@@ -101,47 +131,15 @@ class TryOnCommand final : public Command {
         return kInterrupted;
     }
 
-  private:
-    void add_quality() {
-        app_.add_option("--width", job_.width, "Pixels")
-            ->check(CLI::Range(1, 32768))
-            ->capture_default_str();
-        app_.add_option("--height", job_.height, "Pixels")
-            ->check(CLI::Range(1, 32768))
-            ->capture_default_str();
-        app_.add_option("--error", error_, "Standard error over value that each part may keep")
-            ->check(CLI::PositiveNumber)
-            ->capture_default_str();
-        app_.add_option("--spp,--samples", samples_, "Samples per pixel, the same everywhere")
-            ->check(CLI::Range(1, 65536))
-            ->excludes("--error");
-        app_.add_option("--channels", job_.render.channels, "Spectral channels")
-            ->check(CLI::IsMember({8, 16, 32}))
-            ->capture_default_str();
-        app_.add_option("--threads", job_.render.threads, "0: all")
-            ->check(CLI::Range(0, 4096))
-            ->capture_default_str();
-        app_.add_option("--seed", job_.render.seed, "Of the noise")->capture_default_str();
-    }
     /// The sample data is needed by names and the sample dress only.
     std::filesystem::path data_folder() const {
-        const bool named = garment_.empty() || !fabric_.ends_with(".toml");
-        return named ? scene::data_folder(data_) : std::filesystem::path{};
+        const bool named = garment.empty() || !fabric.ends_with(".toml");
+        return named ? scene::data_folder(data) : std::filesystem::path{};
     }
-
-    CLI::App &app_;
-    scene::TryOn job_{};
-    std::filesystem::path garment_{}, data_{};
-    std::string fabric_ = "black_satin", grain_{};
-    LookOptions look_{};
-    double error_ = *scene::kTryOnQuality.relative_error;
-    std::optional<int> samples_{};
 };
 
 } // namespace
 
-std::unique_ptr<Command> make_tryon(CLI::App &program) {
-    return std::make_unique<TryOnCommand>(program);
-}
+std::unique_ptr<Command> make_tryon() { return std::make_unique<TryOn>(); }
 
 } // namespace tsuya::program

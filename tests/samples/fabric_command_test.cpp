@@ -299,9 +299,11 @@ TEST(FabricShow, RefusesAWeaveThatItCannotDraw) {
     expect({"--weave", "shot silk", "-o", (scratch / "a.jpg").string()}, 1, ".png or .svg");
     scratch.write("file", "");
     expect({"--weave", "shot silk", "-o", (scratch / "file/a.png").string()}, 1, "file");
-    expect({"-o", out}, 2, "[fabric,--weave]");
-    expect({satin().string(), "--weave", "shot silk", "-o", out}, 2, "2 were given");
-    expect({satin().string(), "--tilt", "3", "-o", out}, 2, "--tilt requires --weave");
+    expect({"-o", out}, 2, "neither F.fabric.toml nor --weave");
+    expect({satin().string(), "--weave", "shot silk", "-o", out}, 2,
+           "cannot be given with --weave");
+    expect({satin().string(), "--tilt", "3", "-o", out}, 2,
+           "--tilt: it has no meaning without --weave");
     expect({"--weave", "shot silk", "--tilt", "90", "-o", out}, 2, "--tilt");
 }
 

@@ -81,7 +81,59 @@ TEST(Program, RefusesAWrongCallWithStatus2) {
         EXPECT_EQ(wrong.out, "");
         EXPECT_EQ(wrong.err.rfind("tsuya: ", 0), 0u) << wrong.err;
     }
-    EXPECT_NE(run(scratch, {"tyron"}).err.find("did you mean tryon"), std::string::npos);
+    const std::vector<std::pair<std::vector<std::string>, const char *>> suggestions{
+        {{"tyron"}, "did you mean tryon"},
+        {{"lab", "pluse"}, "did you mean pulse"},
+        {{"render", "a.toml", "--spq", "3"}, "did you mean --spp"},
+        {{"garment", "check", "a.obj", "--jsno"}, "did you mean --json"},
+        {{"tryon", "--progres", "off"}, "did you mean --progress"}};
+    for (const auto &[call, says] : suggestions) {
+        const Outcome wrong = run(scratch, call);
+        EXPECT_EQ(wrong.status, 2) << wrong.err;
+        EXPECT_NE(wrong.err.find(says), std::string::npos) << wrong.err;
+    }
+}
+
+// Where a number is asked for.
+TEST(Program, RefusesNumbersThatAreNotFiniteOrNotWhole) {
+    const Scratch scratch;
+    const std::string exr = (scratch / "a.exr").string();
+    for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
+             {"render", "a.toml", "-o", exr, "--error", "nan"},
+             {"render", "a.toml", "-o", exr, "--time", "inf"},
+             {"render", "a.toml", "-o", exr, "--spp", "2.5"},
+             {"render", "a.toml", "-o", exr, "--spp", "1e9"},
+             {"render", "a.toml", "-o", exr, "--seed", "-1"},
+             {"render", "a.toml", "-o", exr, "--seed", "4294967296"},
+             {"render", "a.toml", "-o", exr, "--crop", "0,0,1"},
+             {"tryon", "-o", exr, "--azimuth", "NaN"},
+             {"tryon", "-o", exr, "--exposure", "0x1"},
+             {"tryon", "-o", exr, "--error", "0"},
+             {"garment", "subdivide", "a.obj", "-o", "b.obj", "--tolerance", "1e999"},
+             {"lab", "pulse", "--simulate", "--width-ms", "nan"}}) {
+        const Outcome wrong = run(scratch, call);
+        EXPECT_EQ(wrong.status, 2) << call.back() << ' ' << wrong.err;
+        EXPECT_EQ(wrong.err.rfind("tsuya: --", 0), 0u) << wrong.err;
+    }
+    EXPECT_EQ(run(scratch, {"lab", "pulse", "--simulate", "--json", "--count", "2e1"}).status, 0);
+}
+
+TEST(Program, LooksAtThePlaceBeforeItReads) {
+    const Scratch scratch;
+    const std::string folder = scratch.folder().string();
+    for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
+             {"relight", "none.exr", "--lamp", "A", "-o", folder + "/n/a.jpg"},
+             {"compare", "none.exr", "--lamps", "A,D65", "-o", folder + "/n/a.exr"},
+             {"fabric", "fit", "none.csv", "-o", folder + "/n/a.csv"},
+             {"fabric", "evaluate", "none", "--against", "none.csv", "--values", folder + "/n/a"},
+             {"fabric", "show", "none", "-o", folder + "/n/a.jpg"},
+             {"fabric", "simulate", "satan 5", "-o", folder + "/n/a.png"},
+             {"garment", "subdivide", "none.obj", "-o", folder + "/n/a.stl"}}) {
+        const Outcome wrong = run(scratch, call);
+        EXPECT_EQ(wrong.status, 1) << wrong.err;
+        EXPECT_NE(wrong.err.find(folder + "/n/a"), std::string::npos) << wrong.err;
+        EXPECT_EQ(scratch.file_count(), 0u);
+    }
 }
 
 TEST(Program, ListsWhatCanBeNamed) {

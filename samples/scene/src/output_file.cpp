@@ -18,23 +18,32 @@ std::string joined(const std::vector<std::string> &words) {
     return text;
 }
 
-} // namespace
-
-void prepare_output_folder(const fs::path &folder) {
-    const fs::path path = folder.empty() ? fs::path(".") : folder;
-    std::error_code code;
-    if (fs::exists(path, code) && !fs::is_directory(path, code))
-        throw Error({"it is a file", path.string(), "expected a folder, or a new name"});
-    fs::create_directories(path, code);
-    if (code)
-        throw Error({"the folder cannot be created: " + code.message(), path.string(),
-                     "expected a folder that may be written to"});
-    if (access(path.c_str(), W_OK | X_OK) != 0)
-        throw Error({"the folder may not be written to", path.string(),
-                     "expected a folder that may be written to"});
+[[noreturn]] void refuse_folder(const fs::path &folder, const std::string &what) {
+    throw Error({what, folder.string(), "expected a folder that may be written to"});
 }
 
-void prepare_output_file(const fs::path &file, const std::vector<std::string> &extensions) {
+} // namespace
+
+void check_output_folder(const fs::path &folder) {
+    std::error_code code;
+    fs::path there = folder.empty() ? fs::path(".") : folder;
+    while (!fs::exists(there, code) && there.has_relative_path())
+        there = there.parent_path().empty() ? fs::path(".") : there.parent_path();
+    if (!fs::is_directory(there, code))
+        throw Error({"it is a file", there.string(), "expected a folder, or a new name"});
+    if (access(there.c_str(), W_OK | X_OK) != 0)
+        refuse_folder(there, "the folder may not be written to");
+}
+
+void prepare_output_folder(const fs::path &folder) {
+    check_output_folder(folder);
+    std::error_code code;
+    fs::create_directories(folder.empty() ? fs::path(".") : folder, code);
+    if (code)
+        refuse_folder(folder, "the folder cannot be created: " + code.message());
+}
+
+void check_output_file(const fs::path &file, const std::vector<std::string> &extensions) {
     const std::string extension = file.extension().string();
     if (!extensions.empty() &&
         std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
@@ -46,6 +55,11 @@ void prepare_output_file(const fs::path &file, const std::vector<std::string> &e
         throw Error({"it is a folder", file.string(), "expected the name of a file"});
     if (fs::exists(file, code) && access(file.c_str(), W_OK) != 0)
         throw Error({"the file may not be replaced", file.string(), "expected another name"});
+    check_output_folder(file.parent_path());
+}
+
+void prepare_output_file(const fs::path &file, const std::vector<std::string> &extensions) {
+    check_output_file(file, extensions);
     prepare_output_folder(file.parent_path());
 }
 

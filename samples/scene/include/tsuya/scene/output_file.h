@@ -8,14 +8,21 @@
 
 namespace tsuya::scene {
 
-/// Makes sure that a file can be written or replaced: creates its folder with parents where they
-/// are missing. The file itself is not touched. Throws Error at the path, with nothing created,
+/// Looks whether a file can be written or replaced, and changes nothing. Throws Error at the path
 /// unless it ends in one of `extensions` (such as `.exr`; empty: any); and if it is a folder, or
-/// its folder cannot be created or written to.
+/// its folder may not be written to or, where it is missing, created.
+void check_output_file(const std::filesystem::path &file,
+                       const std::vector<std::string> &extensions = {});
+
+/// The same, and creates the folder of the file with parents where they are missing.
 void prepare_output_file(const std::filesystem::path &file,
                          const std::vector<std::string> &extensions = {});
 
-/// The same for a folder that results go into.
+/// Throws Error unless results can be written into a folder or, where it is missing, it can be
+/// created.
+void check_output_folder(const std::filesystem::path &folder);
+
+/// The same, and creates the folder.
 void prepare_output_folder(const std::filesystem::path &folder);
 
 } // namespace tsuya::scene

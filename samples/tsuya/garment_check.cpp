@@ -1,0 +1,86 @@
+// tsuya garment check: what is wrong with a mesh.
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "command.h"
+#include "json_file.h"
+#include "tsuya/garment/check.h"
+#include "tsuya/garment/garment.h"
+#include "tsuya/garment/mesh_file.h"
+
+namespace tsuya::program {
+namespace {
+
+struct GarmentCheck final : Command {
+    std::filesystem::path mesh{};
+    std::string unit = "m";
+    bool json = false, strict = false;
+
+    void options(Options &o) override {
+        o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
+        o.option("--unit", &unit, "UNIT", "length unit of the mesh: m, dm, cm, mm, in");
+        o.flag("--json", &json, "print the report as JSON");
+        o.flag("--strict", &strict, "exit status 4 where there is a warning");
+        o.example("tsuya garment check dress.obj --strict");
+    }
+
+    Status run(Console &) override {
+        const double metres = garment::metres_per(unit);
+        garment::PolygonMesh read = garment::read_mesh(mesh).mesh;
+        for (glm::dvec3 &p : read.position)
+            p *= metres;
+        const garment::Report report = garment::check(read);
+        if (json)
+            std::cout << json_of(report).text() << "\n";
+        else
+            print(report);
+        const bool warned =
+            std::any_of(report.findings.begin(), report.findings.end(), [](const auto &finding) {
+                return finding.severity == garment::Severity::warning;
+            });
+        return strict && warned ? kCheckFailed : kDone;
+    }
+
+    void print(const garment::Report &r) const {
+        const glm::dvec3 size = r.upper - r.lower;
+        std::cout << mesh.string() << "\n  " << r.faces << " faces (" << r.triangles
+                  << " triangles, " << r.quads << " quads, " << r.ngons << " larger), "
+                  << r.vertices << " vertices, " << r.uvs << " UVs\n  " << r.panels << " panels, "
+                  << r.parts << " parts after joining " << r.parts_before << ", "
+                  << r.openings.size() << " openings\n  " << size.x << " x " << size.y << " x "
+                  << size.z << " m, area " << r.area << " m2\n";
+        print_cloth(r);
+        for (const garment::Finding &f : r.findings)
+            std::cout << (f.severity == garment::Severity::warning ? "warning " : "note ") << f.key
+                      << ": " << f.what << (f.where.empty() ? "" : " (" + f.where + ")")
+                      << (f.action.empty() ? "" : "; " + f.action) << "\n";
+        if (r.findings.empty())
+            std::cout << "nothing is wrong\n";
+    }
+
+    /// What the UVs say: the scale, the shear, and the grain of each panel.
+    static void print_cloth(const garment::Report &r) {
+        if (r.metres_per_uv_warp.p50 == 0)
+            return;
+        const auto line = [](const char *name, const garment::Percentiles &p, double scale,
+                             const char *unit) {
+            std::cout << "  " << name << " " << scale * p.p5 << ", " << scale * p.p50 << ", "
+                      << scale * p.p95 << " " << unit << " (percentiles 5, 50, 95)\n";
+        };
+        line("weft (u):", r.metres_per_uv_weft, 1, "m a unit of UV");
+        line("warp (v):", r.metres_per_uv_warp, 1, "m a unit of UV");
+        line("between warp and weft:", r.warp_weft_angle, degrees_of(1), "degrees");
+        for (const garment::PanelReport &p : r.panel)
+            std::cout << "  panel " << p.name << ": " << p.faces << " faces, " << p.area
+                      << " m2, warp " << std::round(degrees_of(p.warp_to_vertical))
+                      << " degrees from the vertical\n";
+    }
+};
+
+} // namespace
+
+std::unique_ptr<Command> make_garment_check() { return std::make_unique<GarmentCheck>(); }
+
+} // namespace tsuya::program

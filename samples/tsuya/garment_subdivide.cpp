@@ -1,0 +1,83 @@
+// tsuya garment subdivide: the limit surface of a mesh.
+
+#include <iostream>
+
+#include "command.h"
+#include "grain_option.h"
+#include "tsuya/garment/garment.h"
+#include "tsuya/garment/obj.h"
+#include "tsuya/garment/ply.h"
+#include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/angle.h"
+
+namespace tsuya::program {
+namespace {
+
+struct GarmentSubdivide final : Command {
+    std::filesystem::path mesh{}, output{};
+    std::string unit = "m", grain{};
+    int level = 1;
+    std::optional<double> tolerance{};
+    double seam_crease = 0, fold_crease = 0, fold_angle_deg = 60;
+    double max_degenerate_area = garment::FrameOptions{}.max_degenerate_area;
+    bool strict = false;
+
+    void options(Options &o) override {
+        o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
+        o.option("-o,--output", &output, "OUT.obj|OUT.ply",
+                 "the triangles; a PLY has warp and weft, too")
+            .required();
+        o.option("--unit", &unit, "UNIT", "length unit of the mesh: m, dm, cm, mm, in");
+        const Option &levels =
+            o.option("--level", &level, "N", "level of subdivision: each edge is cut into 2^N")
+                .range(0, 8);
+        o.option("--tolerance", &tolerance, "METRES",
+                 "largest distance of the triangles from the limit surface")
+            .positive()
+            .excludes(levels);
+        o.option("--crease", &fold_crease, "SHARPNESS",
+                 "sharpness of folds: edges bent by more than the crease angle; 0 is smooth")
+            .range(0, 9);
+        o.option("--crease-angle", &fold_angle_deg, "DEGREES",
+                 "angle between two faces above which their edge is a fold")
+            .range(0, 180);
+        o.option("--seam-crease", &seam_crease, "SHARPNESS", "sharpness of seams; 0 is smooth")
+            .range(0, 10);
+        o.option("--max-degenerate-area", &max_degenerate_area, "SHARE",
+                 "share of the area without a usable UV above which it is an error")
+            .range(0, 1);
+        o.flag("--strict", &strict, "refuse a mesh with a warning");
+        o.option("--grain", &grain, "DIRECTION",
+                 "warp direction of a mesh without UV: vertical, horizontal, or degrees from the "
+                 "vertical");
+        o.example("tsuya garment subdivide dress.obj -o fine.ply --tolerance 1e-4");
+    }
+
+    Status run(Console &console) override {
+        scene::check_output_file(output, {".obj", ".ply"});
+        const garment::Options settings{.metres_per_unit = garment::metres_per(unit),
+                                        .subdivide = {.level = level,
+                                                      .tolerance = tolerance,
+                                                      .seam_crease = seam_crease,
+                                                      .fold_crease = fold_crease,
+                                                      .fold_angle = fold_angle_deg * kDegree},
+                                        .frames = {.invented_grain = parse_grain(grain),
+                                                   .max_degenerate_area = max_degenerate_area},
+                                        .strict = strict};
+        const garment::LoadedGarment loaded = garment::load(mesh, settings, console.progress());
+        console.warnings(loaded.report, mesh.string());
+        scene::prepare_output_file(output);
+        if (output.extension() == ".ply")
+            garment::write_ply(output, loaded.surface);
+        else
+            garment::write_obj(output, loaded.surface);
+        std::cout << output.string() << "\n";
+        return kDone;
+    }
+};
+
+} // namespace
+
+std::unique_ptr<Command> make_garment_subdivide() { return std::make_unique<GarmentSubdivide>(); }
+
+} // namespace tsuya::program

@@ -1,0 +1,29 @@
+#include "look_options.h"
+
+#include "tsuya/scene/picture.h"
+
+namespace tsuya::program {
+
+LookOptions::LookOptions()
+    : adapt(to_string(scene::default_look().adapt)), view(scene::default_look().view) {}
+
+void LookOptions::add_to(Options &options) {
+    options.option("--adapt", &adapt, "NAME",
+                   "chromatic adaptation from the lamp to the display's white: none, bradford, "
+                   "cat02");
+    options.option("--view", &view, "NAME", "display view, see `tsuya list views`");
+    options.option("--exposure", &exposure_stops, "STOPS", "exposure; 1 doubles the light")
+        .range(-20, 20);
+}
+
+DisplayOptions LookOptions::look() const {
+    view_description(view);
+    return {.adapt = parse_adaptation(adapt), .view = view, .exposure_stops = exposure_stops};
+}
+
+void add_threads(Options &options, int &threads) {
+    options.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
+        .range(0, 4096);
+}
+
+} // namespace tsuya::program
