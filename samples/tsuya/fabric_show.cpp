@@ -79,7 +79,7 @@ struct FabricShow final : Command {
     }
 
     Status run(Console &console) override {
-        scene::check_output_file(output, {".png", ".svg"});
+        scene::check_output_file(output, {".svg", ".png"});
         weave_name.empty() ? show_fabric() : show_weave(console);
         std::cout << output.string() << "\n";
         return kDone;
@@ -119,7 +119,7 @@ struct FabricShow final : Command {
 
     void show_weave(Console &console) {
         const lab::Weave weave = weave_named(weave_name);
-        scene::prepare_output_file(output, {".png", ".svg"});
+        scene::prepare_output_file(output, {".svg", ".png"});
         settings.height = settings.width;
         settings.across = across_mm * 1e-3;
         settings.tilt = tilt_deg * kDegree;

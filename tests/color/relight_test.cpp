@@ -1,12 +1,17 @@
 #include "tsuya/color/relight.h"
 
 #include <cmath>
+#include <mutex>
 #include <random>
+#include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "color_test.h"
+#include "rows.h"
 #include "tsuya/color/lamp.h"
+#include "tsuya/sdk/detail/threads.h"
 
 namespace tsuya {
 namespace {
@@ -36,6 +41,47 @@ glm::dvec3 integrate(const float *t, const SpectralBasis &basis, const Spectrum 
         white += lit.at(nm) * color_matching(observer, nm).y;
     }
     return sum / white;
+}
+
+/// The threads that take rows when so many are asked for.
+std::size_t threads_of_rows(int threads) {
+    std::mutex mutex;
+    std::set<std::thread::id> ids;
+    detail::run_with_threads(threads, [&] {
+        for_rows(64, 1u << 17, [&](int, int) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            const std::lock_guard lock(mutex);
+            ids.insert(std::this_thread::get_id());
+        });
+    });
+    return ids.size();
+}
+
+TEST(Rows, RunOnTheThreadsThatAreAskedFor) {
+    EXPECT_EQ(threads_of_rows(1), 1u);
+    EXPECT_EQ(threads_of_rows(3), 3u);
+}
+
+TEST(Rows, EachIsTakenOnce) {
+    for (const int height : {0, 1, 5, 1000})
+        for (const std::size_t values : {std::size_t{1}, std::size_t{1} << 16}) {
+            std::vector<int> taken(static_cast<std::size_t>(height));
+            for_rows(height, values, [&](int first, int end) {
+                for (int y = first; y < end; ++y)
+                    ++taken[static_cast<std::size_t>(y)];
+            });
+            EXPECT_EQ(taken, std::vector<int>(static_cast<std::size_t>(height), 1));
+        }
+}
+
+TEST(Relight, IsBitIdenticalForAnyNumberOfThreads) {
+    const SpectralImage image = random_transport(300, 200, {.count = 16}, {"key", "fill"});
+    std::vector<std::vector<float>> pictures;
+    for (const int threads : {1, 2, 7})
+        detail::run_with_threads(threads,
+                                 [&] { pictures.push_back(relight(image, lamp("A")).data); });
+    EXPECT_EQ(pictures[0], pictures[1]);
+    EXPECT_EQ(pictures[0], pictures[2]);
 }
 
 TEST(Relight, AgreesWithIntegrationAtOneNanometre) {

@@ -296,7 +296,7 @@ TEST(FabricShow, RefusesAWeaveThatItCannotDraw) {
     expect({"--weave", "none.wif", "-o", out}, 1, "none.wif");
     const std::string bad = scratch.write("bad.toml", "[weave]\ndraft = \"satan 5\"\n").string();
     expect({"--weave", bad, "-o", out}, 1, "bad.toml:2");
-    expect({"--weave", "shot silk", "-o", (scratch / "a.jpg").string()}, 1, ".png or .svg");
+    expect({"--weave", "shot silk", "-o", (scratch / "a.jpg").string()}, 1, ".svg or .png");
     scratch.write("file", "");
     expect({"--weave", "shot silk", "-o", (scratch / "file/a.png").string()}, 1, "file");
     expect({"-o", out}, 2, "neither F.fabric.toml nor --weave");

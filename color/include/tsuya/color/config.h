@@ -55,9 +55,9 @@ class DisplayConfig {
     DisplayConfig &operator=(DisplayConfig &&) noexcept;
 
     /// Display-encoded R, G, B in [0, 1] of a picture with channels X, Y, Z (as relight makes it)
-    /// under the lamp. A pixel that is not finite becomes NaN in all channels. Rows run on all
-    /// cores. Throws Error for an unknown lamp or view, a picture without X, Y, Z, or an exposure
-    /// that is not finite.
+    /// under the lamp. A pixel that is not finite becomes NaN in all channels. Rows run in
+    /// parallel. Throws Error for an unknown lamp or view, a picture without X, Y, Z, or an
+    /// exposure that is not finite.
     Image display(const Image &xyz, const std::string &lamp,
                   const DisplayOptions &options = {}) const;
 

@@ -28,8 +28,9 @@ struct RelightOptions {
 
 /// The picture under `lamps`: one lamp for all light groups, or one for each, in the order of
 /// `transport.groups`. Channels X, Y, Z: linear, scene-referred, relative to each lamp (a perfect
-/// white that a group lights with irradiance pi has Y = 1). Rows run on all cores. Throws Error if
-/// the numbers of lamps or scales do not fit the groups, or a lamp has no visible power.
+/// white that a group lights with irradiance pi has Y = 1). Rows run in parallel, as
+/// detail::run_with_threads says. Throws Error if the numbers of lamps or scales do not fit the
+/// groups, or a lamp has no visible power.
 Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
               const RelightOptions &options = {});
 Image relight(const SpectralImage &transport, const Spectrum &lamp,
