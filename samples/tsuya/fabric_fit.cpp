@@ -85,23 +85,19 @@ struct FabricFit final : Command {
     };
 
     static Oblique oblique(const ReflectanceTable &table, const Brdf &brdf) {
-        return std::visit(
-            [&](const auto &model) {
-                const BrdfFunction f = [&](const glm::dvec3 &l, const glm::dvec3 &v) {
-                    return static_cast<double>(model.evaluate(glm::vec3(l), glm::vec3(v)));
-                };
-                Oblique found{.views = oblique_views(table, f)};
-                ReflectanceTable rows{.symmetry = table.symmetry};
-                for (const ModelledView &view : found.views)
-                    rows.rows.push_back(view.row);
-                if (rows.rows.empty())
-                    return found;
-                const Accuracy accuracy = measure_accuracy(rows, f);
-                found.lights = accuracy.directions.size();
-                found.l2_cos = accuracy.mean.l2_cos.value_or(0);
-                return found;
-            },
-            brdf);
+        const BrdfFunction f = [&](const glm::dvec3 &l, const glm::dvec3 &v) {
+            return static_cast<double>(brdf.evaluate(glm::vec3(l), glm::vec3(v)));
+        };
+        Oblique found{.views = oblique_views(table, f)};
+        ReflectanceTable rows{.symmetry = table.symmetry};
+        for (const ModelledView &view : found.views)
+            rows.rows.push_back(view.row);
+        if (rows.rows.empty())
+            return found;
+        const Accuracy accuracy = measure_accuracy(rows, f);
+        found.lights = accuracy.directions.size();
+        found.l2_cos = accuracy.mean.l2_cos.value_or(0);
+        return found;
     }
 
     void warn(const Report &report, Console &console) const {

@@ -340,20 +340,18 @@ std::vector<Named> every_model() {
 void add_all(const std::vector<Named> &models) {
     add("one_addition", one_addition);
     for (const auto &[name, brdf] : models)
-        std::visit(
-            [&, &label = name](const auto &model) {
-                add_times(label, model);
-                add_once("reciprocity/" + label,
-                         [&](benchmark::State &state) { report_reciprocity(state, model); });
-                for (const bool adjoint : {false, true})
-                    for (const int degrees : {0, 30, 60, 75, 85, 89})
-                        add_once((adjoint ? "fixed_light/" : "fixed_view/") + label + "/" +
-                                     std::to_string(degrees),
-                                 [&model, adjoint, degrees](benchmark::State &state) {
-                                     report_variance(state, model, adjoint, degrees);
-                                 });
-            },
-            brdf);
+        brdf.visit([&, &label = name](const auto &model) {
+            add_times(label, model);
+            add_once("reciprocity/" + label,
+                     [&](benchmark::State &state) { report_reciprocity(state, model); });
+            for (const bool adjoint : {false, true})
+                for (const int degrees : {0, 30, 60, 75, 85, 89})
+                    add_once((adjoint ? "fixed_light/" : "fixed_view/") + label + "/" +
+                                 std::to_string(degrees),
+                             [&model, adjoint, degrees](benchmark::State &state) {
+                                 report_variance(state, model, adjoint, degrees);
+                             });
+        });
     for (const std::size_t size : {8u, 16u})
         add("evaluate-" + std::to_string(size) + "/ggx_vectorised",
             [size](benchmark::State &state) {

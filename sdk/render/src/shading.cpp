@@ -35,8 +35,7 @@ Shading::Shading(const Material &material, const MeanColours &means, bool keep_i
 
 float Shading::albedo(const glm::vec3 &direction) const {
     // Of models that are not limited in energy it may exceed 1
-    return std::min(
-        1.0f, std::visit([&](const auto &m) { return m.albedo_of_light(direction); }, *specular_));
+    return std::min(1.0f, specular_->albedo_of_light(direction));
 }
 
 ViewTerms Shading::view_terms(const glm::vec3 &to_viewer) const {
@@ -48,9 +47,7 @@ ViewTerms Shading::view_terms(const glm::vec3 &to_viewer) const {
             (1 - albedo(to_viewer)) / std::max(1 - mean_albedo_, kLeastTransmission);
     if (!diffuse_)
         return {view.diffuse_scale, 1.0f};
-    const float bright =
-        means_.specular *
-        std::visit([&](const auto &m) { return m.albedo_of_view(to_viewer); }, *specular_);
+    const float bright = means_.specular * specular_->albedo_of_view(to_viewer);
     const float dyed = (means_.dye + means_.transmittance) * view.diffuse_scale;
     view.specular_share = dyed > 0 && bright > 0
                               ? std::clamp(bright / (bright + dyed), kLeastShare, 1 - kLeastShare)
@@ -86,8 +83,7 @@ Shading::Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_v
         w.pdf = diffuse_draws * (1 - transmitted_draws_) * kLambert.pdf(to_light, to_viewer);
     }
     if (specular_) {
-        const WeighedLight s =
-            std::visit([&](const auto &m) { return m.weigh(to_light, to_viewer); }, *specular_);
+        const WeighedLight s = specular_->weigh(to_light, to_viewer);
         add_specular(w.f_cos, s.f_cos, s.weft);
         w.pdf += view.specular_share * s.pdf_per_sr;
     }
@@ -98,8 +94,7 @@ std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const View
                                           glm::vec2 choice, glm::vec2 direction) const {
     const glm::vec3 u(direction, choice.y);
     if (specular_ && choice.x < view.specular_share) {
-        const auto drawn =
-            std::visit([&](const auto &m) { return m.sample(to_viewer, u); }, *specular_);
+        const auto drawn = specular_->sample(to_viewer, u);
         if (!drawn)
             return std::nullopt;
         DrawnLight light{drawn->direction, {}, view.specular_share * drawn->pdf_per_sr};

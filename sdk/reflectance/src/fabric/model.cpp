@@ -93,13 +93,9 @@ Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string 
 }
 
 BrdfFunction make_model(const std::string &name, const Fabric &fabric, const std::string &where) {
-    return std::visit(
-        [](auto model) -> BrdfFunction {
-            return [model = std::move(model)](const glm::dvec3 &l, const glm::dvec3 &v) {
-                return static_cast<double>(model.evaluate(glm::vec3(l), glm::vec3(v)));
-            };
-        },
-        make_brdf(name, fabric, where));
+    return [brdf = make_brdf(name, fabric, where)](const glm::dvec3 &l, const glm::dvec3 &v) {
+        return static_cast<double>(brdf.evaluate(glm::vec3(l), glm::vec3(v)));
+    };
 }
 
 } // namespace tsuya

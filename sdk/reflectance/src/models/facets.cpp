@@ -18,9 +18,11 @@ float scaled_bard(const Bard &bard, float f0, const glm::vec3 &basic) {
     return static_cast<float>(bard.at(basic)) * std::max(basic.z, 0.5f) / fresnel(f0, half_cosine);
 }
 
-DiskTable scaled_bard(const Bard &bard, float f0, int nodes) {
-    return {nodes, bard.symmetry() == Symmetry::orthotropic,
-            [&](const glm::vec3 &basic) { return scaled_bard(bard, f0, basic); }};
+DiskTable scaled_bard(const Bard &bard, float f0, int nodes, const Progress &progress) {
+    return {nodes, bard.symmetry() == Symmetry::orthotropic, [&](const glm::vec3 &basic) {
+                stop_if_asked(progress);
+                return scaled_bard(bard, f0, basic);
+            }};
 }
 
 } // namespace tsuya

@@ -6,7 +6,9 @@
 
 #include <glm/glm.hpp>
 
+#include "tables/stop.h"
 #include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/detail/brdf_core.h"
 #include "tsuya/sdk/detail/disk_table.h"
 
 namespace tsuya {
@@ -24,7 +26,7 @@ float checked_f0(double f0);
 // The part of the regular form that V0 alone decides: rho0(V0) max(cos theta0, 1/2) /
 // F(cos(theta0/2)).
 float scaled_bard(const Bard &bard, float f0, const glm::vec3 &basic);
-DiskTable scaled_bard(const Bard &bard, float f0, int nodes);
+DiskTable scaled_bard(const Bard &bard, float f0, int nodes, const Progress &progress);
 
 // Points of the R2 sequence [Roberts] and a third coordinate by the golden ratio of it.
 inline glm::vec3 quadrature_point(int i) {
@@ -34,11 +36,25 @@ inline glm::vec3 quadrature_point(int i) {
             fraction(n * 0.5497004779019703)};
 }
 
-// Mean weight of the draws of a sampler at the quadrature points: an albedo.
-template <class Draw> float mean_weight(const Draw &draw, int samples = 1024) {
+// Albedos as mean weights of a core's own samples: of the light from a direction, and of a view.
+// Throw Interrupted.
+template <class Core>
+float mean_weight_of_views(const Core &core, const glm::vec3 &to_light, const Progress &progress,
+                           int samples = 1024) {
+    stop_if_asked(progress);
     double sum = 0;
     for (int i = 0; i < samples; ++i)
-        if (const auto s = draw(quadrature_point(i)))
+        if (const auto s = detail::sample_view(core, to_light, quadrature_point(i)))
+            sum += s->weight;
+    return static_cast<float>(sum / samples);
+}
+template <class Core>
+float mean_weight_of_lights(const Core &core, const glm::vec3 &to_viewer, const Progress &progress,
+                            int samples = 1024) {
+    stop_if_asked(progress);
+    double sum = 0;
+    for (int i = 0; i < samples; ++i)
+        if (const auto s = detail::sample_light(core, to_viewer, quadrature_point(i)))
             sum += s->weight;
     return static_cast<float>(sum / samples);
 }

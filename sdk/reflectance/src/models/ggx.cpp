@@ -28,42 +28,39 @@ float dielectric_fresnel(float index, float cosine) {
 } // namespace
 
 void check_ggx(const GgxFacets &facets, const std::string &where) {
-    std::vector<Problem> problems;
-    const auto check = [&](double value, const char *key, bool good, const char *accepted) {
-        if (!good)
-            problems.push_back(
-                {std::string(key) + " is " + std::to_string(value), where + "." + key, accepted});
+    Problems problems;
+    const auto need = [&](bool good, double value, const char *key, const char *accepted) {
+        problems.need(good, std::string(key) + " is " + std::to_string(value), where + "." + key,
+                      accepted);
     };
     const auto is_alpha = [](double alpha) { return alpha >= kLeastAlpha && alpha <= 1; };
-    check(facets.alpha_weft, "alpha_weft", is_alpha(facets.alpha_weft), "expected 0.0001 to 1");
-    check(facets.alpha_warp, "alpha_warp", is_alpha(facets.alpha_warp), "expected 0.0001 to 1");
-    if (facets.refractive_index)
-        check(*facets.refractive_index, "refractive_index",
-              *facets.refractive_index > 1 && *facets.refractive_index <= 10,
-              "expected an index above 1 and not above 10");
+    need(is_alpha(facets.alpha_weft), facets.alpha_weft, "alpha_weft", "expected 0.0001 to 1");
+    need(is_alpha(facets.alpha_warp), facets.alpha_warp, "alpha_warp", "expected 0.0001 to 1");
+    if (const auto &index = facets.refractive_index)
+        need(*index > 1 && *index <= 10, *index, "refractive_index",
+             "expected an index above 1 and not above 10");
     else
-        check(facets.f0, "f0", facets.f0 > 0 && facets.f0 <= 1,
-              "expected a reflectance above 0 and not above 1");
-    if (!problems.empty())
-        throw Error(std::move(problems));
+        need(facets.f0 > 0 && facets.f0 <= 1, facets.f0, "f0",
+             "expected a reflectance above 0 and not above 1");
+    problems.throw_if_any();
 }
 
-GgxBrdf::GgxBrdf(const GgxFacets &facets)
+GgxCore::GgxCore(const GgxFacets &facets, const Progress &progress)
     : alpha_weft_(static_cast<float>(facets.alpha_weft)),
       alpha_warp_(static_cast<float>(facets.alpha_warp)), f0_(static_cast<float>(facets.f0)),
       index_(static_cast<float>(facets.refractive_index.value_or(0))) {
     check_ggx(facets, "ggx");
     albedo_ = AlbedoTable(Symmetry::orthotropic, [&](const glm::vec3 &to_viewer) {
-        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); });
+        return mean_weight_of_lights(*this, to_viewer, progress);
     });
 }
 
-float GgxBrdf::fresnel_of(float cosine) const {
+float GgxCore::fresnel_of(float cosine) const {
     return index_ > 0 ? dielectric_fresnel(index_, cosine) : fresnel(f0_, cosine);
 }
 
 // D(H), with H not normalised
-float GgxBrdf::facets(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+float GgxCore::facets(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const glm::vec3 h = to_light + to_viewer;
     const float x = h.x / alpha_weft_, y = h.y / alpha_warp_;
     const float t = glm::dot(h, h) / std::max(x * x + y * y + h.z * h.z, kSmallest);
@@ -71,32 +68,16 @@ float GgxBrdf::facets(const glm::vec3 &to_light, const glm::vec3 &to_viewer) con
 }
 
 // cos (1 + 2 Lambda) of Smith's masking, [Heitz] Eq. 72
-float GgxBrdf::stretched(const glm::vec3 &d) const {
+float GgxCore::stretched(const glm::vec3 &d) const {
     const float x = alpha_weft_ * d.x, y = alpha_warp_ * d.y;
     return std::sqrt(x * x + y * y + d.z * d.z);
 }
 
 // G / (4 cos_i cos_r) = 1/2 / (cos_i S(V) + cos_r S(L)), S as above: [Heitz] Eq. 99 in a form that
-// stays regular at grazing.
-float GgxBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+// stays regular at grazing. The density is [Heitz2018] Eq. 17, with G1(V)/cos_r = 2 / (cos_r +
+// S(V)).
+WeighedLight GgxCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const float ci = to_light.z, cr = to_viewer.z;
-    if (!(ci > 0 && cr > 0))
-        return 0;
-    const float cosine =
-        std::sqrt(glm::clamp(0.5f * (1 + glm::dot(to_light, to_viewer)), 0.0f, 1.0f));
-    return 0.5f * facets(to_light, to_viewer) * fresnel_of(cosine) /
-           (ci * stretched(to_viewer) + cr * stretched(to_light));
-}
-
-float GgxBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return weigh(to_light, to_viewer).f_cos;
-}
-
-// [Heitz2018] Eq. 17, with G1(V)/cos_r = 2 / (cos_r + S(V))
-WeighedLight GgxBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const float ci = to_light.z, cr = to_viewer.z;
-    if (!(ci > 0 && cr > 0))
-        return {};
     const float d = facets(to_light, to_viewer), seen = stretched(to_viewer);
     const float cosine =
         std::sqrt(glm::clamp(0.5f * (1 + glm::dot(to_light, to_viewer)), 0.0f, 1.0f));
@@ -104,21 +85,10 @@ WeighedLight GgxBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewe
             0.5f * d / (cr + seen)};
 }
 
-float GgxBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return weigh(to_light, to_viewer).pdf_per_sr;
-}
-
-float GgxBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return pdf(to_viewer, to_light);
-}
-
-// [Heitz2018] listing 1. A light below the horizon is a null sample.
-std::optional<SampledDirection> GgxBrdf::sample(const glm::vec3 &to_viewer,
-                                                const glm::vec3 &u) const {
-    if (!(to_viewer.z > 0))
-        return std::nullopt;
+// [Heitz2018] listing 1.
+std::optional<glm::vec3> GgxCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     const glm::vec3 alpha(alpha_weft_, alpha_warp_, 1);
-    const glm::vec3 seen = glm::normalize(alpha * to_viewer);
+    const glm::vec3 seen = glm::normalize(alpha * fixed);
     const float across = glm::length(glm::vec2(seen));
     const glm::vec3 side = across > 0 ? glm::vec3(-seen.y, seen.x, 0) / across : glm::vec3(1, 0, 0);
     // A point of the disk, pressed together where the hemisphere of facets turns away
@@ -129,25 +99,14 @@ std::optional<SampledDirection> GgxBrdf::sample(const glm::vec3 &to_viewer,
                             std::sqrt(std::max(0.0f, 1 - glm::dot(p, p))) * seen;
     const glm::vec3 half =
         glm::normalize(alpha * glm::vec3(facet.x, facet.y, std::max(0.0f, facet.z)));
-    const glm::vec3 to_light = glm::normalize(2 * glm::dot(to_viewer, half) * half - to_viewer);
-    const WeighedLight light = weigh(to_light, to_viewer);
-    if (!(light.pdf_per_sr > 0))
-        return std::nullopt;
-    return SampledDirection{to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr};
+    return glm::normalize(2 * glm::dot(fixed, half) * half - fixed);
 }
 
-std::optional<SampledDirection> GgxBrdf::sample_adjoint(const glm::vec3 &to_light,
-                                                        const glm::vec3 &u) const {
-    return sample(to_light, u);
+float GgxCore::albedo(const glm::vec3 &direction) const {
+    return std::min(1.0f, albedo_.at(direction));
 }
 
-float GgxBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? std::min(1.0f, albedo_.at(to_light)) : 0.0f;
-}
-
-float GgxBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
-    return albedo_of_light(to_viewer);
-}
+template class Model<GgxCore>;
 
 namespace {
 
@@ -157,11 +116,12 @@ struct FitNode {
     double view_z, measured;
 };
 
-std::vector<FitNode> fit_nodes(const Bard &bard) {
+std::vector<FitNode> fit_nodes(const Bard &bard, const Progress &progress) {
     constexpr int kCells = 40;
     std::vector<FitNode> nodes;
     for (int j = 0; j < kCells; ++j)
         for (int i = 0; i < kCells; ++i) {
+            stop_if_asked(progress);
             const glm::vec2 u = (glm::vec2(i, j) + 0.5f) / static_cast<float>(kCells);
             const glm::dvec3 view = direction_of_disk(disk_of_square(u));
             const glm::dvec3 half = glm::normalize(view + glm::dvec3(0, 0, 1));
@@ -191,11 +151,12 @@ double best_f0(const std::vector<FitNode> &nodes, double alpha_weft, double alph
 
 } // namespace
 
-GgxFacets fit_ggx(const Bard &bard) {
-    const std::vector<FitNode> nodes = fit_nodes(bard);
+GgxFacets fit_ggx(const Bard &bard, const Progress &progress) {
+    const std::vector<FitNode> nodes = fit_nodes(bard, progress);
     GgxFacets best;
     double least = std::numeric_limits<double>::infinity();
     const auto attempt = [&](double weft, double warp) {
+        stop_if_asked(progress);
         GgxFacets facets{.alpha_weft = std::clamp(weft, 0.01, 1.0),
                          .alpha_warp = std::clamp(warp, 0.01, 1.0)};
         const double error = best_f0(nodes, facets.alpha_weft, facets.alpha_warp, facets.f0);

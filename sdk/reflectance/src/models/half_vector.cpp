@@ -59,22 +59,21 @@ struct Half {
 
 } // namespace
 
-struct HalfVectorBrdf::Terms : FacetTerms {
-    float pdf_per_sr; // of either direction for the other
-};
-
-HalfVectorBrdf::HalfVectorBrdf(const Bard &bard, double f0) : f0_(checked_f0(f0)) {
+HalfVectorCore::HalfVectorCore(const Bard &bard, double f0, const Progress &progress)
+    : f0_(checked_f0(f0)) {
     const bool orthotropic = bard.symmetry() == Symmetry::orthotropic;
     // The table's own disk has another radius: its directions only carry the point
-    facets_ = DiskTable(
-        orthotropic ? kTableNodes : kFullTableNodes, orthotropic,
-        [&](const glm::vec3 &carrier) { return facets(bard, f0_, disk_of_direction(carrier)); });
+    facets_ = DiskTable(orthotropic ? kTableNodes : kFullTableNodes, orthotropic,
+                        [&](const glm::vec3 &carrier) {
+                            stop_if_asked(progress);
+                            return facets(bard, f0_, disk_of_direction(carrier));
+                        });
     tabulate_density();
-    tabulate_albedos(bard.symmetry());
+    tabulate_albedos(bard.symmetry(), progress);
 }
 
 // The disk of the horizontal part of H has the area element N.H dH: even cells draw D N.H.
-void HalfVectorBrdf::tabulate_density() {
+void HalfVectorCore::tabulate_density() {
     std::vector<double> mass;
     double total = 0;
     for (int j = 0; j < kDensityCells; ++j)
@@ -88,83 +87,39 @@ void HalfVectorBrdf::tabulate_density() {
     density_ = Distribution2D(mass, kDensityCells, kDensityCells);
 }
 
-void HalfVectorBrdf::tabulate_albedos(Symmetry symmetry) {
+void HalfVectorCore::tabulate_albedos(Symmetry symmetry, const Progress &progress) {
     albedo_.tabulate(symmetry, [&](const glm::vec3 &to_viewer) {
-        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
-                           kAlbedoSamples);
+        return mean_weight_of_lights(*this, to_viewer, progress, kAlbedoSamples);
     });
 }
 
-HalfVectorBrdf::Terms HalfVectorBrdf::terms(const glm::vec3 &to_light,
-                                            const glm::vec3 &to_viewer) const {
+WeighedLight HalfVectorCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const Half half(to_light, to_viewer);
     const float v_h = 0.5f * half.length; // V.H = L.H
     const float d = facets_.at(direction_of_disk(half.horizontal));
     // The smaller of the two limits bounds the albedo of both directions and stays reciprocal
     const float limited = std::min(albedo_.limit(to_light), albedo_.limit(to_viewer));
+    const FacetTerms terms{d * fresnel(f0_, std::min(v_h, 1.0f)) * limited, 2 * half.z / v_h};
     const float density = density_.density(square_of_disk(half.horizontal)) / kPiF * half.z;
-    return {{d * fresnel(f0_, std::min(v_h, 1.0f)) * limited, 2 * half.z / v_h},
-            density / (4 * v_h)};
+    return {terms.cos(to_light.z, to_viewer.z), density / (4 * v_h)};
 }
 
-float HalfVectorBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
-    return terms(to_light, to_viewer).per_sr(to_light.z, to_viewer.z);
-}
-
-float HalfVectorBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return weigh(to_light, to_viewer).f_cos;
-}
-
-WeighedLight HalfVectorBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return {};
-    const Terms t = terms(to_light, to_viewer);
-    return {t.cos(to_light.z, to_viewer.z), t.pdf_per_sr};
-}
-
-float HalfVectorBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return weigh(to_light, to_viewer).pdf_per_sr;
-}
-
-float HalfVectorBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return pdf(to_light, to_viewer);
-}
-
-// Draws H, and mirrors the view in it. A light below the horizon, or a facet that looks away, is a
-// null sample.
-std::optional<SampledDirection> HalfVectorBrdf::sample(const glm::vec3 &to_viewer,
-                                                       const glm::vec3 &u) const {
-    if (!(to_viewer.z > 0))
-        return std::nullopt;
+// Draws H, and mirrors the view in it. A facet that looks away is a null sample.
+std::optional<glm::vec3> HalfVectorCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     const glm::vec2 p = disk_of_square(density_.sample({u.x, u.y}).point);
     const glm::vec3 half(p, std::sqrt(std::max(1 - glm::dot(p, p), 0.0f)));
-    const float v_h = glm::dot(to_viewer, half);
-    const glm::vec3 to_light = 2 * v_h * half - to_viewer;
-    if (!(v_h > 0 && to_light.z > 0))
+    const float facing = glm::dot(fixed, half);
+    if (!(facing > 0))
         return std::nullopt;
-    const WeighedLight light = weigh(to_light, to_viewer);
-    if (!(light.pdf_per_sr > 0))
-        return std::nullopt;
-    return SampledDirection{to_light, light.f_cos / light.pdf_per_sr, light.pdf_per_sr};
+    return 2 * facing * half - fixed;
 }
 
-std::optional<SampledDirection> HalfVectorBrdf::sample_adjoint(const glm::vec3 &to_light,
-                                                               const glm::vec3 &u) const {
-    return sample(to_light, u);
-}
+float HalfVectorCore::albedo(const glm::vec3 &direction) const { return albedo_.at(direction); }
 
-float HalfVectorBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return albedo_.at(to_light);
-}
-
-float HalfVectorBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
-    return albedo_of_light(to_viewer);
-}
-
-bool HalfVectorBrdf::is_extrapolated(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
+bool HalfVectorCore::is_extrapolated(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     return Half(to_light, to_viewer).z < std::cos(kQuarterTurn);
 }
+
+template class Model<HalfVectorCore>;
 
 } // namespace tsuya

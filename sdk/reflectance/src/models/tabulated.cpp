@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "models/facets.h"
-#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/detail/great_circle.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
@@ -22,11 +22,6 @@ constexpr int kAlbedoSamples = 2048;
 using Key = std::pair<long, long>;
 Key key_of(const glm::dvec3 &d) {
     return {std::lround(d.x / kSameDirection), std::lround(d.y / kSameDirection)};
-}
-
-glm::dvec3 direction_of(double theta, double phi) {
-    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-            std::max(0.0, std::cos(theta))};
 }
 
 std::vector<glm::dvec3> mirrors_of(Symmetry symmetry) {
@@ -52,8 +47,8 @@ std::map<Key, LightSum> gather(const ReflectanceTable &table) {
     std::map<Key, LightSum> lights;
     for (const ReflectanceRow &row : table.rows)
         for (const glm::dvec3 &mirror : mirrors_of(table.symmetry)) {
-            const glm::dvec3 l = mirror * direction_of(row.theta_i, row.phi_i);
-            const glm::dvec3 v = mirror * direction_of(row.theta_r, row.phi_r);
+            const glm::dvec3 l = mirror * row.to_light();
+            const glm::dvec3 v = mirror * row.to_viewer();
             LightSum &light = lights.try_emplace(key_of(l), LightSum{.to_light = l}).first->second;
             ViewSum &view =
                 light.views.try_emplace(key_of(v), ViewSum{.to_viewer = v}).first->second;
@@ -71,7 +66,8 @@ float unit_value(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
 
 } // namespace
 
-TabulatedBrdf::TabulatedBrdf(const ReflectanceTable &table, const std::string &where) {
+TabulatedCore::TabulatedCore(const ReflectanceTable &table, const std::string &where,
+                             const Progress &progress) {
     check_table(table, where);
     const std::map<Key, LightSum> gathered = gather(table);
     std::vector<glm::dvec3> to_lights;
@@ -97,22 +93,22 @@ TabulatedBrdf::TabulatedBrdf(const ReflectanceTable &table, const std::string &w
     grid_ = RingGrid(to_lights);
 
     view_sampler_ = DirectionSampler([&](const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
-        return evaluate(to_light, to_viewer) * to_viewer.z;
+        stop_if_asked(progress);
+        return terms(to_light, to_viewer).cos(to_viewer.z, to_light.z);
     });
     light_sampler_ = DirectionSampler([&](const glm::vec3 &to_viewer, const glm::vec3 &to_light) {
-        return evaluate_cos(to_light, to_viewer);
+        stop_if_asked(progress);
+        return f_cos(to_light, to_viewer);
     });
     light_albedo_ = AlbedoTable(table.symmetry, [&](const glm::vec3 &to_light) {
-        return mean_weight([&](const glm::vec3 &u) { return sample_adjoint(to_light, u); },
-                           kAlbedoSamples);
+        return mean_weight_of_views(*this, to_light, progress, kAlbedoSamples);
     });
     view_albedo_ = AlbedoTable(table.symmetry, [&](const glm::vec3 &to_viewer) {
-        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
-                           kAlbedoSamples);
+        return mean_weight_of_lights(*this, to_viewer, progress, kAlbedoSamples);
     });
 }
 
-float TabulatedBrdf::regular_value(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+FacetTerms TabulatedCore::terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const glm::vec3 basic = to_basic(to_light, to_viewer).basic;
     const RingGrid::Corners about = grid_.about(to_light);
     float sum = 0;
@@ -125,64 +121,38 @@ float TabulatedBrdf::regular_value(const glm::vec3 &to_light, const glm::vec3 &t
         for (int i = 0; i < views.count; ++i)
             sum += corner.weight * views.corner[i].weight * light.value[views.corner[i].index];
     }
-    return sum;
+    return FacetTerms::scaled(sum, 1, to_light, to_viewer);
 }
 
-float TabulatedBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
-    return FacetTerms::scaled(regular_value(to_light, to_viewer), 1, to_light, to_viewer)
-        .per_sr(to_light.z, to_viewer.z);
+float TabulatedCore::f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return terms(to_light, to_viewer).cos(to_light.z, to_viewer.z);
 }
 
-float TabulatedBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
-    return FacetTerms::scaled(regular_value(to_light, to_viewer), 1, to_light, to_viewer)
-        .cos(to_light.z, to_viewer.z);
+WeighedLight TabulatedCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return {f_cos(to_light, to_viewer), light_sampler_.pdf(to_viewer, to_light)};
 }
 
-float TabulatedBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return to_light.z > 0 && to_viewer.z > 0 ? light_sampler_.pdf(to_viewer, to_light) : 0.0f;
+WeighedLight TabulatedCore::weigh_view(const glm::vec3 &to_light,
+                                       const glm::vec3 &to_viewer) const {
+    return {terms(to_light, to_viewer).cos(to_viewer.z, to_light.z),
+            view_sampler_.pdf(to_light, to_viewer)};
 }
 
-float TabulatedBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return to_light.z > 0 && to_viewer.z > 0 ? view_sampler_.pdf(to_light, to_viewer) : 0.0f;
+std::optional<glm::vec3> TabulatedCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
+    return light_sampler_.sample(to_viewer, u);
 }
 
-WeighedLight TabulatedBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return {evaluate_cos(to_light, to_viewer), pdf(to_light, to_viewer)};
+std::optional<glm::vec3> TabulatedCore::draw_view(const glm::vec3 &to_light,
+                                                  const glm::vec3 &u) const {
+    return view_sampler_.sample(to_light, u);
 }
 
-std::optional<SampledDirection> TabulatedBrdf::sample(const glm::vec3 &to_viewer,
-                                                      const glm::vec3 &u) const {
-    if (!(to_viewer.z > 0))
-        return std::nullopt;
-    const auto to_light = light_sampler_.sample(to_viewer, u);
-    if (!to_light)
-        return std::nullopt;
-    const float density = light_sampler_.pdf(to_viewer, *to_light);
-    return SampledDirection{*to_light, evaluate_cos(*to_light, to_viewer) / density, density};
+float TabulatedCore::albedo(const glm::vec3 &to_light) const { return light_albedo_.at(to_light); }
+
+float TabulatedCore::albedo_of_view(const glm::vec3 &to_viewer) const {
+    return view_albedo_.at(to_viewer);
 }
 
-std::optional<SampledDirection> TabulatedBrdf::sample_adjoint(const glm::vec3 &to_light,
-                                                              const glm::vec3 &u) const {
-    if (!(to_light.z > 0))
-        return std::nullopt;
-    const auto to_viewer = view_sampler_.sample(to_light, u);
-    if (!to_viewer)
-        return std::nullopt;
-    const float density = view_sampler_.pdf(to_light, *to_viewer);
-    return SampledDirection{*to_viewer, evaluate(to_light, *to_viewer) * to_viewer->z / density,
-                            density};
-}
-
-float TabulatedBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? light_albedo_.at(to_light) : 0.0f;
-}
-
-float TabulatedBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
-    return to_viewer.z > 0 ? view_albedo_.at(to_viewer) : 0.0f;
-}
+template class Model<TabulatedCore>;
 
 } // namespace tsuya

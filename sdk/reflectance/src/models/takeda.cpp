@@ -23,6 +23,7 @@ constexpr float kHalfShare = 0.9f;       // of the lights, drawn by H; the rest 
 constexpr float kTail = 12 * kPiF / 180; // facets beyond 45 degrees fall to 1/e within this tilt
 constexpr float kDiskOfSquare = 0.25f;   // area of the unit square for an area of the disk
 constexpr float kEvenDensity = 0.5f / kPiF;
+constexpr float kLeastCosine = 1e-18f; // of the light, by which its cosine is taken out again
 
 // Masses of the cells of the square about the unit disk; what lies outside the disk has none.
 template <class Mass> Distribution2D tabulate_on_disk(const Mass &mass_at) {
@@ -47,29 +48,21 @@ template <class Mass> Distribution2D tabulate_on_disk(const Mass &mass_at) {
     return {mass, kDensityCells, kDensityCells};
 }
 
-// Made in place: a copy would be read in other pieces than it was written in, and waited for.
-std::optional<SampledDirection> drawn(const glm::vec3 &direction, float f_cos, float pdf_per_sr) {
-    std::optional<SampledDirection> made(std::in_place);
-    made->direction = direction;
-    made->weight = f_cos / pdf_per_sr;
-    made->pdf_per_sr = pdf_per_sr;
-    return made;
-}
-
 glm::vec2 square_about(const glm::vec2 &p) { return 0.5f * (p + 1.0f); }
 
 } // namespace
 
-TakedaBrdf::TakedaBrdf(const Bard &bard, double f0)
+TakedaCore::TakedaCore(const Bard &bard, double f0, const Progress &progress)
     : f0_(checked_f0(f0)), half_turn_(bard.symmetry() != Symmetry::none) {
     const bool orthotropic = bard.symmetry() == Symmetry::orthotropic;
-    scaled_ = scaled_bard(bard, f0_, orthotropic ? kTableNodes : kFullTableNodes);
-    tabulate_densities();
-    tabulate_albedos(bard.symmetry());
+    scaled_ = scaled_bard(bard, f0_, orthotropic ? kTableNodes : kFullTableNodes, progress);
+    tabulate_densities(progress);
+    tabulate_albedos(bard.symmetry(), progress);
 }
 
-void TakedaBrdf::tabulate_densities() {
+void TakedaCore::tabulate_densities(const Progress &progress) {
     basics_ = tabulate_on_disk([&](const glm::vec2 &p) {
+        stop_if_asked(progress);
         const float z = 1 - glm::dot(p, p);
         return scaled_.at(direction_of_disk(p)) * fresnel(f0_, std::sqrt(0.5f * (1 + z))) * z /
                std::max(z, 0.5f);
@@ -78,6 +71,7 @@ void TakedaBrdf::tabulate_densities() {
     // facet's, under light from straight above, and theta_i a/(a + theta_i), for the view from
     // straight above. The geometric mean of both draws evenly well from all sides.
     halves_ = tabulate_on_disk([&](const glm::vec2 &p) {
+        stop_if_asked(progress);
         const float sine = glm::length(p), tilt = std::asin(sine), turned = 2 * tilt;
         const float theta =
             std::sqrt(std::min(turned, kHalfPi) * kHalfPi * turned / (kHalfPi + turned));
@@ -87,39 +81,33 @@ void TakedaBrdf::tabulate_densities() {
     });
 }
 
-void TakedaBrdf::tabulate_albedos(Symmetry symmetry) {
+void TakedaCore::tabulate_albedos(Symmetry symmetry, const Progress &progress) {
     // limited_below_ is 0 still: this is the albedo before the limit
     light_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_light) {
-        return mean_weight([&](const glm::vec3 &u) { return sample_adjoint(to_light, u); });
+        return mean_weight_of_views(*this, to_light, progress);
     });
     unlimited_albedo_ = light_albedo_.maximum();
     limited_below_ = light_albedo_.cosine_above(1);
     view_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_viewer) {
-        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); });
+        return mean_weight_of_lights(*this, to_viewer, progress);
     });
 }
 
-std::size_t TakedaBrdf::table_bytes() const {
+std::size_t TakedaCore::table_bytes() const {
     return scaled_.bytes() + basics_.bytes() + halves_.bytes() + light_albedo_.bytes() +
            view_albedo_.bytes();
 }
 
-float TakedaBrdf::limit_at(const glm::vec3 &to_light) const {
+float TakedaCore::limit_at(const glm::vec3 &to_light) const {
     return 1 / std::max(1.0f, light_albedo_.at(to_light));
 }
 
-float TakedaBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return evaluate_cos(to_light, to_viewer) / std::max(to_light.z, 1e-18f);
-}
-
-float TakedaBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
+float TakedaCore::f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     return kernel::f_cos(scaled_, f0_, to_light, to_viewer) * limit(to_light);
 }
 
-void TakedaBrdf::evaluate_cos(std::span<const glm::vec3> to_light,
-                              std::span<const glm::vec3> to_viewer, std::span<float> f_cos) const {
+void TakedaCore::f_cos(std::span<const glm::vec3> to_light, std::span<const glm::vec3> to_viewer,
+                       std::span<float> f_cos) const {
     assert(to_light.size() == f_cos.size() && to_viewer.size() == f_cos.size());
     if (kernel::evaluate(scaled_, f0_, limited_below_, to_light.data(), to_viewer.data(),
                          f_cos.data(), f_cos.size()))
@@ -128,47 +116,37 @@ void TakedaBrdf::evaluate_cos(std::span<const glm::vec3> to_light,
                 f_cos[i] *= limit(to_light[i]);
 }
 
-WeighedLight TakedaBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return {};
+WeighedLight TakedaCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const kernel::Weighed pair = kernel::weigh(scaled_, halves_, f0_, to_light, to_viewer);
     return {pair.f_cos * limit(to_light),
             kHalfShare * pair.density_per_sr + (1 - kHalfShare) * kEvenDensity};
 }
 
-float TakedaBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return weigh(to_light, to_viewer).pdf_per_sr;
+// The disk of V0 has an area of 1/2 for a steradian.
+WeighedLight TakedaCore::weigh_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    const GreatCircle c = to_basic(to_light, to_viewer);
+    const float density = basics_.density(square_about(disk_of_direction(c.basic))) *
+                          (0.5f * kDiskOfSquare) * c.sine_ratio * (half_turn_ ? 1.0f : c.slope);
+    return {f_cos(to_light, to_viewer) / std::max(to_light.z, kLeastCosine) * to_viewer.z, density};
 }
 
 // Most lights by the facet that mirrors the view into them; what lies below the horizon is a null
 // sample.
-std::optional<SampledDirection> TakedaBrdf::sample(const glm::vec3 &to_viewer,
-                                                   const glm::vec3 &u) const {
-    if (!(to_viewer.z > 0))
+std::optional<glm::vec3> TakedaCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
+    if (u.z >= kHalfShare)
+        return direction_of_disk(disk_of_square({u.x, u.y}));
+    const glm::vec2 p = 2.0f * halves_.sample({u.x, u.y}).point - 1.0f;
+    const float z2 = 1 - glm::dot(p, p);
+    const glm::vec3 half(p, std::sqrt(std::max(z2, 0.0f)));
+    const float facing = glm::dot(to_viewer, half);
+    if (!(z2 > 0 && facing > 0))
         return std::nullopt;
-    glm::vec3 to_light;
-    if (u.z < kHalfShare) {
-        const glm::vec2 p = 2.0f * halves_.sample({u.x, u.y}).point - 1.0f;
-        const float z2 = 1 - glm::dot(p, p);
-        if (!(z2 > 0))
-            return std::nullopt;
-        const glm::vec3 half(p, std::sqrt(z2));
-        const float facing = glm::dot(to_viewer, half);
-        to_light = 2 * facing * half - to_viewer;
-        if (!(facing > 0))
-            return std::nullopt;
-    } else {
-        to_light = direction_of_disk(disk_of_square({u.x, u.y}));
-    }
-    if (!(to_light.z > 0))
-        return std::nullopt;
-    const WeighedLight light = weigh(to_light, to_viewer);
-    return drawn(to_light, light.f_cos, light.pdf_per_sr);
+    return 2 * facing * half - to_viewer;
 }
 
 // Where rho0 repeats after half a turn, V0 is turned to R's side with probability 1/2 - theta_i/pi:
 // the density of the view then has no jump by the slope of the map.
-std::optional<glm::vec3> TakedaBrdf::draw_view(const glm::vec3 &to_light,
+std::optional<glm::vec3> TakedaCore::draw_view(const glm::vec3 &to_light,
                                                const glm::vec3 &u) const {
     const glm::vec2 p = 2.0f * basics_.sample({u.x, u.y}).point - 1.0f;
     if (!(glm::dot(p, p) < 1))
@@ -181,40 +159,17 @@ std::optional<glm::vec3> TakedaBrdf::draw_view(const glm::vec3 &to_light,
         if (wants_away != is_away)
             basic = {-basic.x, -basic.y, basic.z};
     }
-    const glm::vec3 to_viewer = view_of_basic(to_light, basic).to_viewer;
-    return to_viewer.z > 0 ? std::optional(to_viewer) : std::nullopt;
+    return view_of_basic(to_light, basic).to_viewer;
 }
 
-// The disk of V0 has an area of 1/2 for a steradian.
-float TakedaBrdf::density_of_view(const GreatCircle &c) const {
-    return basics_.density(square_about(disk_of_direction(c.basic))) * (0.5f * kDiskOfSquare) *
-           c.sine_ratio * (half_turn_ ? 1.0f : c.slope);
+float TakedaCore::albedo(const glm::vec3 &to_light) const {
+    return std::min(1.0f, light_albedo_.at(to_light));
 }
 
-float TakedaBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return to_light.z > 0 && to_viewer.z > 0 ? density_of_view(to_basic(to_light, to_viewer))
-                                             : 0.0f;
+float TakedaCore::albedo_of_view(const glm::vec3 &to_viewer) const {
+    return view_albedo_.at(to_viewer);
 }
 
-std::optional<SampledDirection> TakedaBrdf::sample_adjoint(const glm::vec3 &to_light,
-                                                           const glm::vec3 &u) const {
-    if (!(to_light.z > 0))
-        return std::nullopt;
-    const std::optional<glm::vec3> to_viewer = draw_view(to_light, u);
-    if (!to_viewer)
-        return std::nullopt;
-    const float density = density_of_view(to_basic(to_light, *to_viewer));
-    if (!(density > 0))
-        return std::nullopt;
-    return drawn(*to_viewer, evaluate(to_light, *to_viewer) * to_viewer->z, density);
-}
-
-float TakedaBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? std::min(1.0f, light_albedo_.at(to_light)) : 0.0f;
-}
-
-float TakedaBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
-    return to_viewer.z > 0 ? view_albedo_.at(to_viewer) : 0.0f;
-}
+template class Model<TakedaCore>;
 
 } // namespace tsuya

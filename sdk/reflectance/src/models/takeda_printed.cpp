@@ -37,85 +37,64 @@ glm::vec3 printed_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     return {level, std::max(std::cos(theta), 0.0f)};
 }
 
-struct TakedaPrintedBrdf::Terms : FacetTerms {};
-
-TakedaPrintedBrdf::TakedaPrintedBrdf(const Bard &bard, double f0) : f0_(checked_f0(f0)) {
+TakedaPrintedCore::TakedaPrintedCore(const Bard &bard, double f0, const Progress &progress)
+    : f0_(checked_f0(f0)) {
     const bool orthotropic = bard.symmetry() == Symmetry::orthotropic;
-    scaled_ = scaled_bard(bard, f0_, orthotropic ? kTableNodes : kFullTableNodes);
+    scaled_ = scaled_bard(bard, f0_, orthotropic ? kTableNodes : kFullTableNodes, progress);
     views_ = DirectionSampler([&](const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
+        stop_if_asked(progress);
         return terms(to_light, to_viewer).cos(to_viewer.z, to_light.z);
     });
     lights_ = DirectionSampler([&](const glm::vec3 &to_viewer, const glm::vec3 &to_light) {
-        return terms(to_light, to_viewer).cos(to_light.z, to_viewer.z);
+        stop_if_asked(progress);
+        return f_cos(to_light, to_viewer);
     });
     light_albedo_ = AlbedoTable(bard.symmetry(), [&](const glm::vec3 &to_light) {
-        return mean_weight([&](const glm::vec3 &u) { return sample_adjoint(to_light, u); },
-                           kAlbedoSamples);
+        return mean_weight_of_views(*this, to_light, progress, kAlbedoSamples);
     });
     view_albedo_ = AlbedoTable(bard.symmetry(), [&](const glm::vec3 &to_viewer) {
-        return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
-                           kAlbedoSamples);
+        return mean_weight_of_lights(*this, to_viewer, progress, kAlbedoSamples);
     });
 }
 
 // The regular form of [Takeda] Eq. 14 holds for any V0.
-TakedaPrintedBrdf::Terms TakedaPrintedBrdf::terms(const glm::vec3 &to_light,
-                                                  const glm::vec3 &to_viewer) const {
+FacetTerms TakedaPrintedCore::terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const glm::vec3 basic = printed_basic(to_light, to_viewer);
-    return {FacetTerms::scaled(scaled_.at(basic), f0_, to_light, to_viewer)};
+    return FacetTerms::scaled(scaled_.at(basic), f0_, to_light, to_viewer);
 }
 
-float TakedaPrintedBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const float ci = to_light.z, cr = to_viewer.z;
-    return ci > 0 && cr > 0 ? terms(to_light, to_viewer).per_sr(ci, cr) : 0.0f;
+float TakedaPrintedCore::f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return terms(to_light, to_viewer).cos(to_light.z, to_viewer.z);
 }
 
-float TakedaPrintedBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    const float ci = to_light.z, cr = to_viewer.z;
-    return ci > 0 && cr > 0 ? terms(to_light, to_viewer).cos(ci, cr) : 0.0f;
+WeighedLight TakedaPrintedCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+    return {f_cos(to_light, to_viewer), lights_.pdf(to_viewer, to_light)};
 }
 
-float TakedaPrintedBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return to_light.z > 0 && to_viewer.z > 0 ? lights_.pdf(to_viewer, to_light) : 0.0f;
+WeighedLight TakedaPrintedCore::weigh_view(const glm::vec3 &to_light,
+                                           const glm::vec3 &to_viewer) const {
+    return {terms(to_light, to_viewer).cos(to_viewer.z, to_light.z),
+            views_.pdf(to_light, to_viewer)};
 }
 
-float TakedaPrintedBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return to_light.z > 0 && to_viewer.z > 0 ? views_.pdf(to_light, to_viewer) : 0.0f;
+std::optional<glm::vec3> TakedaPrintedCore::draw(const glm::vec3 &to_viewer,
+                                                 const glm::vec3 &u) const {
+    return lights_.sample(to_viewer, u);
 }
 
-WeighedLight TakedaPrintedBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return {evaluate_cos(to_light, to_viewer), pdf(to_light, to_viewer)};
+std::optional<glm::vec3> TakedaPrintedCore::draw_view(const glm::vec3 &to_light,
+                                                      const glm::vec3 &u) const {
+    return views_.sample(to_light, u);
 }
 
-std::optional<SampledDirection> TakedaPrintedBrdf::sample(const glm::vec3 &to_viewer,
-                                                          const glm::vec3 &u) const {
-    if (!(to_viewer.z > 0))
-        return std::nullopt;
-    const auto to_light = lights_.sample(to_viewer, u);
-    if (!to_light)
-        return std::nullopt;
-    const float density = lights_.pdf(to_viewer, *to_light);
-    return SampledDirection{*to_light, evaluate_cos(*to_light, to_viewer) / density, density};
+float TakedaPrintedCore::albedo(const glm::vec3 &to_light) const {
+    return light_albedo_.at(to_light);
 }
 
-std::optional<SampledDirection> TakedaPrintedBrdf::sample_adjoint(const glm::vec3 &to_light,
-                                                                  const glm::vec3 &u) const {
-    if (!(to_light.z > 0))
-        return std::nullopt;
-    const auto to_viewer = views_.sample(to_light, u);
-    if (!to_viewer)
-        return std::nullopt;
-    const float density = views_.pdf(to_light, *to_viewer);
-    const Terms t = terms(to_light, *to_viewer);
-    return SampledDirection{*to_viewer, t.cos(to_viewer->z, to_light.z) / density, density};
+float TakedaPrintedCore::albedo_of_view(const glm::vec3 &to_viewer) const {
+    return view_albedo_.at(to_viewer);
 }
 
-float TakedaPrintedBrdf::albedo_of_light(const glm::vec3 &to_light) const {
-    return to_light.z > 0 ? light_albedo_.at(to_light) : 0.0f;
-}
-
-float TakedaPrintedBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
-    return to_viewer.z > 0 ? view_albedo_.at(to_viewer) : 0.0f;
-}
+template class Model<TakedaPrintedCore>;
 
 } // namespace tsuya

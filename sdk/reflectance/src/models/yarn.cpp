@@ -18,13 +18,12 @@ constexpr int kQuarterNodes = 113; // along a half axis: 0.2 degrees of tilt at 
 constexpr float kFocus = 0.6f;     // of the nodes, which are denser where the lobes are narrow
 constexpr int kAlbedoSamples = 512;
 constexpr int kAlbedoColumns = 16; // of a quarter: at grazing the albedo changes fast with azimuth
-constexpr float kSmallest = 1e-20f;
 
 // A component of the half vector to a place along an axis of the table, 0 to 1, and back.
 float place_of(float component) { return component * (1 + kFocus) / (component + kFocus); }
 float component_of(float place) { return place * kFocus / (1 + kFocus - place); }
 
-// The even part of weft and warp in 1/sr: each has as much as it has of the filaments.
+// The diffuse part of weft and warp in 1/sr: each has as much as it has of the filaments.
 glm::vec2 even_of_systems(const YarnLobes &lobes) {
     const auto filaments = [&](std::size_t axis) {
         return std::accumulate(lobes.surface[axis].begin(), lobes.surface[axis].end(), 0.0);
@@ -59,20 +58,20 @@ double facets_of(const std::vector<Cylinders> &system, double roughness, double 
 
 } // namespace
 
-YarnBrdf::YarnBrdf(const YarnLobes &lobes, Symmetry symmetry)
+YarnCore::YarnCore(const YarnLobes &lobes, Symmetry symmetry, const Progress &progress)
     : lobes_(lobes), optics_(checked_f0(lobes.f0)), pit_{static_cast<float>(lobes.pit[0]),
                                                          static_cast<float>(lobes.pit[1])},
       even_per_sr_(even_of_systems(lobes)), mirrored_(symmetry != Symmetry::none) {
-    tabulate_facets();
-    tabulate_draws();
+    tabulate_facets(progress);
+    tabulate_draws(progress);
     // Cylinders are mirrored across their axis, and slopes along it where the cloth is
-    tabulate_albedos(mirrored_ ? Symmetry::orthotropic : Symmetry::none);
+    tabulate_albedos(mirrored_ ? Symmetry::orthotropic : Symmetry::none, progress);
 }
 
-YarnBrdf::YarnBrdf(const Bard &bard, double f0)
-    : YarnBrdf(fit_yarn_lobes(bard, f0), bard.symmetry()) {}
+YarnCore::YarnCore(const Bard &bard, double f0, const Progress &progress)
+    : YarnCore(fit_yarn_lobes(bard, f0, progress), bard.symmetry(), progress) {}
 
-void YarnBrdf::tabulate_facets() {
+void YarnCore::tabulate_facets(const Progress &progress) {
     nodes_ = mirrored_ ? kQuarterNodes : 2 * kQuarterNodes - 1;
     facets_.resize(static_cast<std::size_t>(nodes_ * nodes_));
     const auto component = [&](int i) {
@@ -83,6 +82,7 @@ void YarnBrdf::tabulate_facets() {
     const std::array<std::vector<Cylinders>, 2> systems = {cylinders(lobes_, 0),
                                                            cylinders(lobes_, 1)};
     tbb::parallel_for(0, nodes_, [&](int j) {
+        stop_if_asked(progress);
         for (int i = 0; i < nodes_; ++i) {
             glm::dvec2 p(component(i), component(j));
             // Nodes beyond the horizon take the value of the horizon below them
@@ -96,7 +96,7 @@ void YarnBrdf::tabulate_facets() {
     });
 }
 
-glm::vec2 YarnBrdf::facets(const glm::vec3 &half) const {
+glm::vec2 YarnCore::facets(const glm::vec3 &half) const {
     const auto place = [&](float component) {
         const float p = place_of(std::min(std::abs(component), 1.0f)) * (kQuarterNodes - 1);
         return mirrored_ ? p : kQuarterNodes - 1 + (component < 0 ? -p : p);
@@ -110,7 +110,7 @@ glm::vec2 YarnBrdf::facets(const glm::vec3 &half) const {
     return (1 - t) * ((1 - s) * row[0] + s * row[1]) + t * ((1 - s) * next[0] + s * next[1]);
 }
 
-void YarnBrdf::tabulate_draws() {
+void YarnCore::tabulate_draws(const Progress &progress) {
     draws_ = HalfVectorSampler(
         mirrored_,
         [&](const glm::vec3 &half) {
@@ -118,24 +118,24 @@ void YarnBrdf::tabulate_draws() {
             return d.x + d.y;
         },
         [&](const glm::vec3 &fixed, const glm::vec3 &drawn) {
-            const float f_cos = evaluate_cos(drawn, fixed);
-            return std::max(f_cos - (even_per_sr_.x + even_per_sr_.y) * drawn.z, 0.0f);
+            stop_if_asked(progress);
+            return std::max(f_cos(drawn, fixed) - (even_per_sr_.x + even_per_sr_.y) * drawn.z,
+                            0.0f);
         },
         static_cast<float>(lobes_.even));
 }
 
-void YarnBrdf::tabulate_albedos(Symmetry symmetry) {
+void YarnCore::tabulate_albedos(Symmetry symmetry, const Progress &progress) {
     albedo_.tabulate(
         symmetry,
         [&](const glm::vec3 &to_viewer) {
-            return mean_weight([&](const glm::vec3 &u) { return sample(to_viewer, u); },
-                               kAlbedoSamples);
+            return mean_weight_of_lights(*this, to_viewer, progress, kAlbedoSamples);
         },
         kAlbedoColumns);
 }
 
 // rho of weft and warp times the light's cosine.
-glm::vec2 YarnBrdf::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
+glm::vec2 YarnCore::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
                                        const glm::vec3 &v) const {
     const glm::vec2 d = facets(half.half);
     const float open = 1 / v.z, ratio = l.z * open;
@@ -145,69 +145,27 @@ glm::vec2 YarnBrdf::times_light_cosine(const YarnHalf &half, const glm::vec3 &l,
     return (even_per_sr_ * l.z + d * reach) * std::min(albedo_.limit(l), albedo_.limit(v));
 }
 
-float YarnBrdf::evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return evaluate_cos(to_light, to_viewer) / std::max(to_light.z, kSmallest);
-}
-
-float YarnBrdf::evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
+float YarnCore::f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const glm::vec2 systems =
         times_light_cosine(optics_.half(to_light, to_viewer), to_light, to_viewer);
     return systems.x + systems.y;
 }
 
-WeighedLight YarnBrdf::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return {};
+WeighedLight YarnCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const YarnHalf half = optics_.half(to_light, to_viewer);
     const glm::vec2 systems = times_light_cosine(half, to_light, to_viewer);
     return {systems.x + systems.y, draws_.pdf(to_viewer, half.half, half.cosine, to_light.z),
             systems.x};
 }
 
-float YarnBrdf::pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    if (!(to_light.z > 0 && to_viewer.z > 0))
-        return 0;
-    const YarnHalf half = optics_.half(to_light, to_viewer);
-    return draws_.pdf(to_viewer, half.half, half.cosine, to_light.z);
+// Draws H, and mirrors the view in it, or a light from the diffuse part. A facet that looks away is
+// a null sample.
+std::optional<glm::vec3> YarnCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
+    return draws_.sample(fixed, u);
 }
 
-float YarnBrdf::pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return pdf(to_viewer, to_light);
-}
+float YarnCore::albedo(const glm::vec3 &direction) const { return albedo_.at(direction); }
 
-// Draws H, and mirrors the view in it, or a light from the even part. A light below the horizon, or
-// a facet that looks away, is a null sample.
-std::optional<SampledDirection> YarnBrdf::sample(const glm::vec3 &to_viewer,
-                                                 const glm::vec3 &u) const {
-    if (!(to_viewer.z > 0))
-        return std::nullopt;
-    const std::optional<glm::vec3> to_light = draws_.sample(to_viewer, u);
-    if (!to_light)
-        return std::nullopt;
-    const WeighedLight light = weigh(*to_light, to_viewer);
-    if (!(light.pdf_per_sr > 0))
-        return std::nullopt;
-    // In place: a copy would be read in other pieces than it was written in, and waited for
-    std::optional<SampledDirection> drawn(std::in_place);
-    const float over = 1 / light.pdf_per_sr;
-    drawn->direction = *to_light;
-    drawn->weight = light.f_cos * over;
-    drawn->pdf_per_sr = light.pdf_per_sr;
-    drawn->weft = light.weft * over;
-    return drawn;
-}
-
-std::optional<SampledDirection> YarnBrdf::sample_adjoint(const glm::vec3 &to_light,
-                                                         const glm::vec3 &u) const {
-    return sample(to_light, u);
-}
-
-float YarnBrdf::albedo_of_light(const glm::vec3 &to_light) const { return albedo_.at(to_light); }
-
-float YarnBrdf::albedo_of_view(const glm::vec3 &to_viewer) const {
-    return albedo_of_light(to_viewer);
-}
+template class Model<YarnCore>;
 
 } // namespace tsuya

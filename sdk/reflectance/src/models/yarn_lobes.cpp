@@ -85,7 +85,7 @@ struct View {
 // those under oblique light, each direction of light alike, as well.
 class Fit {
   public:
-    Fit(const Bard &bard, double f0);
+    Fit(const Bard &bard, double f0, const Progress &progress);
     /// Adds the oblique rows of the table. Throws Error naming `where`.
     void add_oblique(const ReflectanceTable &table, const std::string &where);
     /// What the lobes of all unknowns have at the views: a row a view.
@@ -105,6 +105,7 @@ class Fit {
     Eigen::MatrixXd bending() const;
     void store(const Eigen::VectorXd &x, YarnLobes &lobes) const;
 
+    const Progress &progress_; // every step throws Interrupted
     bool symmetric_;
     YarnOptics optics_;
     std::vector<View> views_{};
@@ -112,13 +113,11 @@ class Fit {
     Eigen::VectorXd target_{}; // weight times the value
 };
 
-glm::dvec3 direction_of(double theta, double phi) {
-    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-            std::max(std::cos(theta), kLowest)};
-}
+// A direction with a cosine that can be divided by.
+glm::dvec3 raised(const glm::dvec3 &d) { return {d.x, d.y, std::max(d.z, kLowest)}; }
 
-Fit::Fit(const Bard &bard, double f0)
-    : symmetric_(bard.symmetry() != Symmetry::none), optics_(checked_f0(f0)) {
+Fit::Fit(const Bard &bard, double f0, const Progress &progress)
+    : progress_(progress), symmetric_(bard.symmetry() != Symmetry::none), optics_(checked_f0(f0)) {
     std::vector<ReflectanceRow> rows;
     for (const BardView &v : bard.views())
         rows.push_back({.theta_r = v.theta, .phi_r = v.phi, .brdf_per_sr = v.brdf_per_sr});
@@ -131,7 +130,7 @@ void Fit::add_light(const glm::dvec3 &to_light, const std::vector<ReflectanceRow
                     double share, Symmetry symmetry) {
     std::vector<glm::dvec3> directions;
     for (const ReflectanceRow &row : rows)
-        directions.push_back(direction_of(row.theta_r, row.phi_r));
+        directions.push_back(raised(row.to_viewer()));
     const std::vector<double> area = solid_angles(directions, to_light, symmetry);
     double square = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -153,11 +152,12 @@ void Fit::add_light(const glm::dvec3 &to_light, const std::vector<ReflectanceRow
 void Fit::add_oblique(const ReflectanceTable &table, const std::string &where) {
     const std::map<LightAngles, std::vector<ReflectanceRow>> lights = oblique_rows(table, where);
     for (const auto &[angles, rows] : lights)
-        add_light(direction_of(angles.first, angles.second), rows,
+        add_light(raised(direction_of(angles.first, angles.second)), rows,
                   1.0 / static_cast<double>(lights.size()), table.symmetry);
 }
 
 Eigen::MatrixXd Fit::shapes(double roughness) const {
+    stop_if_asked(progress_);
     const int count = unknowns_of_system();
     Eigen::MatrixXd b(target_.size(), 2 * count);
     for (Eigen::Index i = 0; i < b.rows(); ++i)
@@ -245,6 +245,7 @@ void Fit::store(const Eigen::VectorXd &x, YarnLobes &lobes) const {
 }
 
 double Fit::solve(const Eigen::MatrixXd &shapes, YarnLobes &lobes, double least_even) const {
+    stop_if_asked(progress_);
     const int count = unknowns_of_system();
     const Eigen::MatrixXd b = basis(shapes, lobes.pit);
     Eigen::MatrixXd a = b.transpose() * b;
@@ -317,10 +318,10 @@ double yarn_lobe(double sine, double roughness) {
     return std::exp(-0.5 * angle * angle) / (std::sqrt(2 * kPi) * roughness * kPi);
 }
 
-YarnLobes fit_yarn_lobes(const Bard &bard, double f0) {
+YarnLobes fit_yarn_lobes(const Bard &bard, double f0, const Progress &progress) {
     if (!(bard.peak() > 0))
         return {.f0 = checked_f0(f0)}; // black: nothing is on any slope
-    const Fit fit(bard, f0);
+    const Fit fit(bard, f0, progress);
     std::array<Solution, kRoughness.size()> tried;
     tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
         tried[i].lobes = {.f0 = f0, .roughness = kRoughness[i]};
@@ -330,13 +331,13 @@ YarnLobes fit_yarn_lobes(const Bard &bard, double f0) {
 }
 
 YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double f0,
-                         const std::string &where) {
+                         const std::string &where, const Progress &progress) {
     check_table(table, where);
     if (!(bard.peak() > 0))
         throw Error({"the views under light from straight above are all 0", where,
                      "expected a value above 0"});
-    const Fit above(bard, f0);
-    Fit fit(bard, f0);
+    const Fit above(bard, f0, progress);
+    Fit fit(bard, f0, progress);
     fit.add_oblique(table, where);
     const std::vector<double> depths(kDepths.begin(), kDepths.end());
     Solution best;

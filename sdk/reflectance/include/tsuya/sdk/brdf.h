@@ -5,17 +5,22 @@
 /// Directions are unit, in the cloth's frame (x = weft, y = warp, z = normal), and point away from
 /// the surface. Values are in 1/sr without the cosine. A model reflects on the side z > 0 only: any
 /// direction with z <= 0 gives 0. Models are values: no state, no allocation, no virtual call.
+///
+/// A model is written as a core of three operations, see detail/brdf_core.h, which derives the rest
+/// of the contract. To add one: a header and a source with the core, its entry in Brdf::Models, a
+/// row in the contract test.
 
 #include <concepts>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/sampled_direction.h"
 #include "tsuya/sdk/ggx.h"
 #include "tsuya/sdk/half_vector.h"
 #include "tsuya/sdk/lambert.h"
-#include "tsuya/sdk/detail/sampled_direction.h"
 #include "tsuya/sdk/tabulated.h"
 #include "tsuya/sdk/takeda.h"
 #include "tsuya/sdk/takeda_printed.h"
@@ -50,8 +55,60 @@ concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer
 };
 // clang-format on
 
-using Brdf = std::variant<LambertBrdf, TakedaBrdf, TakedaPrintedBrdf, HalfVectorBrdf, GgxBrdf,
-                          TabulatedBrdf, YarnBrdf>;
+/// Any of the models, with the functions of the contract.
+class Brdf {
+  public:
+    using Models = std::variant<LambertBrdf, TakedaBrdf, TakedaPrintedBrdf, HalfVectorBrdf, GgxBrdf,
+                                TabulatedBrdf, YarnBrdf>;
+
+    template <BrdfModel M>
+    requires std::constructible_from<Models, M> Brdf(M model) : models_(std::move(model)) {}
+
+    /// Calls `function` with the model as its own type: once for what then runs many times.
+    template <class Function> decltype(auto) visit(Function &&function) const {
+        return std::visit(std::forward<Function>(function), models_);
+    }
+    /// The model where it is of that type; null elsewhere.
+    template <class M> const M *get_if() const { return std::get_if<M>(&models_); }
+
+    float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+        return visit([&](const auto &m) { return m.evaluate(to_light, to_viewer); });
+    }
+    float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+        return visit([&](const auto &m) { return m.evaluate_cos(to_light, to_viewer); });
+    }
+    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
+        return visit([&](const auto &m) { return m.sample(to_viewer, u); });
+    }
+    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
+                                                   const glm::vec3 &u) const {
+        return visit([&](const auto &m) { return m.sample_adjoint(to_light, u); });
+    }
+    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+        return visit([&](const auto &m) { return m.pdf(to_light, to_viewer); });
+    }
+    WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+        return visit([&](const auto &m) { return m.weigh(to_light, to_viewer); });
+    }
+    float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
+        return visit([&](const auto &m) { return m.pdf_adjoint(to_light, to_viewer); });
+    }
+    float albedo_of_light(const glm::vec3 &to_light) const {
+        return visit([&](const auto &m) { return m.albedo_of_light(to_light); });
+    }
+    float albedo_of_view(const glm::vec3 &to_viewer) const {
+        return visit([&](const auto &m) { return m.albedo_of_view(to_viewer); });
+    }
+    bool is_reciprocal() const {
+        return visit([](const auto &m) { return m.kReciprocal; });
+    }
+    bool is_energy_limited() const {
+        return visit([](const auto &m) { return m.kEnergyLimited; });
+    }
+
+  private:
+    Models models_;
+};
 
 static_assert(BrdfModel<LambertBrdf>);
 static_assert(BrdfModel<TakedaBrdf>);

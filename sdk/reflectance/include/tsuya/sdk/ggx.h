@@ -2,15 +2,32 @@
 /// \file
 /// Rough facets with the GGX distribution, wider along one axis than along the other: bodies,
 /// props, and what a fabric is compared with.
+///
+///     f = D(H) F(L.H) G(L, V) / (4 cos_i cos_r)
+///
+/// D is the anisotropic GGX distribution, G Smith's height-correlated masking [Heitz], F Schlick's
+/// Fresnel term or that of a dielectric.
+///
+/// | parameter | range | meaning |
+/// |---|---|---|
+/// | alpha_weft, alpha_warp | 1e-4 to 1 | root mean square slope of the facets along either axis |
+/// | f0 | above 0, to 1 | what a facet reflects at normal incidence, after Schlick |
+/// | refractive_index | above 1, to 10 | the exact term of a dielectric, in place of f0 |
+///
+/// Reciprocal. Energy-limited by its form; what light would do between the facets after the first
+/// is lost, up to a half at alpha = 1. Draws the facets that the given direction sees [Heitz2018].
+/// It has one peak about the mirror direction: the two crossing highlights of a woven cloth are
+/// beyond it.
 
 #include <optional>
 #include <string>
 
 #include <glm/glm.hpp>
 
-#include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/bard.h"
-#include "tsuya/sdk/detail/sampled_direction.h"
+#include "tsuya/sdk/detail/albedo_table.h"
+#include "tsuya/sdk/detail/brdf_core.h"
+#include "tsuya/sdk/progress.h"
 
 namespace tsuya {
 
@@ -29,30 +46,19 @@ void check_ggx(const GgxFacets &facets, const std::string &where);
 
 /// The facets, with Schlick's term, whose reflectance under light from straight above is nearest to
 /// the BARD: least squares of rho0 cos theta over the hemisphere.
-GgxFacets fit_ggx(const Bard &bard);
+GgxFacets fit_ggx(const Bard &bard, const Progress &progress = {});
 
-/// D F G / (4 cos_i cos_r) with the anisotropic GGX distribution and Smith's height-correlated
-/// masking [Heitz]. Reciprocal. Energy-limited by its form; what light would do between the facets
-/// after the first is lost. Draws the facets that the given direction sees [Heitz2018]. See brdf.h
-/// for the contract.
-class GgxBrdf {
+class GgxCore {
   public:
     static constexpr bool kReciprocal = true;
     static constexpr bool kEnergyLimited = true;
 
     /// Throws Error as check_ggx.
-    explicit GgxBrdf(const GgxFacets &facets);
+    explicit GgxCore(const GgxFacets &facets, const Progress &progress = {});
 
-    float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
-    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
-                                                   const glm::vec3 &u) const;
-    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float albedo_of_light(const glm::vec3 &to_light) const;
-    float albedo_of_view(const glm::vec3 &to_viewer) const;
+    std::optional<glm::vec3> draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    float albedo(const glm::vec3 &direction) const;
 
   private:
     float fresnel_of(float cosine) const;
@@ -63,5 +69,8 @@ class GgxBrdf {
     float index_ = 0; ///< 0: Schlick
     AlbedoTable albedo_{};
 };
+
+extern template class Model<GgxCore>;
+using GgxBrdf = Model<GgxCore>;
 
 } // namespace tsuya

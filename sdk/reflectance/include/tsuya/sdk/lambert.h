@@ -1,37 +1,40 @@
 #pragma once
 /// \file
-/// The ideal diffuse reflector. Reciprocal, energy-limited.
+/// The ideal diffuse reflector.
+///
+///     f = albedo / pi
+///
+/// | parameter | range | meaning |
+/// |---|---|---|
+/// | albedo | 0 to 1, default 1 | share of the light that is reflected, from every direction |
+///
+/// Reciprocal, energy-limited, drawn by the cosine. No woven cloth is one: it stands for plain
+/// bodies and backdrops, and for what is left of a cloth where its yarns are not told apart.
 
 #include <optional>
 
 #include <glm/glm.hpp>
 
-#include "tsuya/sdk/detail/sampled_direction.h"
+#include "tsuya/sdk/detail/brdf_core.h"
 
 namespace tsuya {
 
-/// f = albedo/pi. Sampled by the cosine. See brdf.h for the contract.
-class LambertBrdf {
+class LambertCore {
   public:
     static constexpr bool kReciprocal = true;
     static constexpr bool kEnergyLimited = true;
 
-    /// \param albedo in [0, 1]
-    explicit constexpr LambertBrdf(float albedo = 1) : albedo_(albedo) {}
+    explicit constexpr LambertCore(float albedo = 1) : albedo_(albedo) {}
 
-    float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
-    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
-                                                   const glm::vec3 &u) const;
-    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float albedo_of_light(const glm::vec3 &to_light) const;
-    float albedo_of_view(const glm::vec3 &to_viewer) const;
+    std::optional<glm::vec3> draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    float albedo(const glm::vec3 &) const { return albedo_; }
 
   private:
     float albedo_;
 };
+
+extern template class Model<LambertCore>;
+using LambertBrdf = Model<LambertCore>;
 
 } // namespace tsuya

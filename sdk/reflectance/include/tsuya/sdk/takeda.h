@@ -2,6 +2,20 @@
 /// \file
 /// The model of [Takeda] in the great-circle form: the BARD moved and scaled to every direction of
 /// light.
+///
+///     f(L, V) cos_i cos_r / (F(L.H) G(L, V)) = rho0(V0) cos(theta0) / (F(cos(theta0/2)) G(N, V0))
+///
+/// [Takeda] Eq. 14, evaluated in a form that stays regular at grazing; V0 is the image of the view
+/// under light from straight above by Eqs. 7-15, see great_circle.h.
+///
+/// | parameter | range | meaning |
+/// |---|---|---|
+/// | bard | see bard.h | the measured views with light from straight above |
+/// | f0 | above 0, to 1 | reflectance of the facets at normal incidence |
+///
+/// Not reciprocal. Energy-limited: where the share of light from one direction that is reflected
+/// would exceed 1 (near grazing), the model is scaled to 1. It keeps the shape of the highlight
+/// under all lights: sdk/docs/ACCURACY.md has how far that carries.
 
 #include <cstddef>
 #include <optional>
@@ -9,39 +23,33 @@
 
 #include <glm/glm.hpp>
 
-#include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/detail/albedo_table.h"
+#include "tsuya/sdk/detail/brdf_core.h"
 #include "tsuya/sdk/detail/disk_table.h"
 #include "tsuya/sdk/detail/distribution.h"
 #include "tsuya/sdk/detail/great_circle.h"
-#include "tsuya/sdk/detail/sampled_direction.h"
+#include "tsuya/sdk/progress.h"
 
 namespace tsuya {
 
-/// rho_s(V, L) of [Takeda] Eq. 14 in its regular form. Not reciprocal. Energy-limited: where the
-/// share of light from one direction that is reflected would exceed 1 (near grazing), the model is
-/// scaled to 1. See brdf.h for the contract.
-class TakedaBrdf {
+class TakedaCore {
   public:
     static constexpr bool kReciprocal = false;
     static constexpr bool kEnergyLimited = true;
 
     /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
-    TakedaBrdf(const Bard &bard, double f0);
+    TakedaCore(const Bard &bard, double f0, const Progress &progress = {});
 
-    float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    /// The same for many pairs at once, several times as fast where the processor has wide vectors:
-    /// equal to the calls one by one but for rounding. The spans are of one length.
-    void evaluate_cos(std::span<const glm::vec3> to_light, std::span<const glm::vec3> to_viewer,
-                      std::span<float> f_cos) const;
-    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
-    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
-                                                   const glm::vec3 &u) const;
-    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    /// Of many pairs at once, 0 where a direction is not above the horizon.
+    void f_cos(std::span<const glm::vec3> to_light, std::span<const glm::vec3> to_viewer,
+               std::span<float> f_cos) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float albedo_of_light(const glm::vec3 &to_light) const;
+    std::optional<glm::vec3> draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
+    float albedo(const glm::vec3 &to_light) const;
+    WeighedLight weigh_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
     float albedo_of_view(const glm::vec3 &to_viewer) const;
 
     /// Largest albedo_of_light before it was limited.
@@ -54,10 +62,8 @@ class TakedaBrdf {
         return to_light.z < limited_below_ ? limit_at(to_light) : 1.0f;
     }
     float limit_at(const glm::vec3 &to_light) const;
-    void tabulate_densities();
-    void tabulate_albedos(Symmetry symmetry);
-    std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
-    float density_of_view(const GreatCircle &circle) const;
+    void tabulate_densities(const Progress &progress);
+    void tabulate_albedos(Symmetry symmetry, const Progress &progress);
 
     float f0_ = 0.05f;
     bool half_turn_ = true; ///< rho0 repeats after half a turn: the even proposal can be used
@@ -70,5 +76,8 @@ class TakedaBrdf {
     float unlimited_albedo_ = 0;
     float limited_below_ = 0; ///< cosine of the light from which on nothing is limited
 };
+
+extern template class Model<TakedaCore>;
+using TakedaBrdf = Model<TakedaCore>;
 
 } // namespace tsuya

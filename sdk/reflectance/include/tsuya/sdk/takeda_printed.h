@@ -2,16 +2,20 @@
 /// \file
 /// The model of [Takeda] with Eqs. 16-17 as they are printed: for reproducing the paper, and
 /// nothing else.
+///
+/// The formula of takeda.h with V0 = printed_basic(L, V), and the parameters of takeda.h. Not
+/// reciprocal, not limited in energy; it jumps where the view passes through the normal.
 
 #include <optional>
 
 #include <glm/glm.hpp>
 
-#include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/detail/albedo_table.h"
+#include "tsuya/sdk/detail/brdf_core.h"
 #include "tsuya/sdk/detail/direction_sampler.h"
 #include "tsuya/sdk/detail/disk_table.h"
-#include "tsuya/sdk/detail/sampled_direction.h"
+#include "tsuya/sdk/progress.h"
 
 namespace tsuya {
 
@@ -20,35 +24,34 @@ namespace tsuya {
 /// Not continuous at V = N. Both unit with z >= 0; light from straight above gives the identity.
 glm::vec3 printed_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer);
 
-/// rho_s(V, L) of [Takeda] Eq. 14 with that V0. Not reciprocal, not limited in energy. See brdf.h
-/// for the contract.
-class TakedaPrintedBrdf {
+struct FacetTerms;
+
+class TakedaPrintedCore {
   public:
     static constexpr bool kReciprocal = false;
     static constexpr bool kEnergyLimited = false;
 
     /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
-    TakedaPrintedBrdf(const Bard &bard, double f0);
+    TakedaPrintedCore(const Bard &bard, double f0, const Progress &progress = {});
 
-    float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
-    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
-                                                   const glm::vec3 &u) const;
-    float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    float albedo_of_light(const glm::vec3 &to_light) const;
+    std::optional<glm::vec3> draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
+    float albedo(const glm::vec3 &to_light) const;
+    WeighedLight weigh_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
     float albedo_of_view(const glm::vec3 &to_viewer) const;
 
   private:
-    struct Terms;
-    Terms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
+    FacetTerms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
 
     float f0_ = 0.05f;
     DiskTable scaled_{}; ///< rho0(V0) max(cos theta0, 1/2) / F(cos(theta0/2))
     DirectionSampler lights_{}, views_{};
     AlbedoTable light_albedo_{}, view_albedo_{};
 };
+
+extern template class Model<TakedaPrintedCore>;
+using TakedaPrintedBrdf = Model<TakedaPrintedCore>;
 
 } // namespace tsuya

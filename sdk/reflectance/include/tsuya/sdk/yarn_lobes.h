@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya {
@@ -41,7 +42,7 @@ double yarn_lobe(double sine, double roughness);
 /// Fits slopes, roughness and the even part to the views with light from straight above. The depth
 /// of pits is not seen from above: it follows from how little of the face a system has. Throws
 /// Error unless f0 is in (0, 1].
-YarnLobes fit_yarn_lobes(const Bard &bard, double f0);
+YarnLobes fit_yarn_lobes(const Bard &bard, double f0, const Progress &progress = {});
 
 /// Fits the depth of pits as well, which light from straight above does not show, to the rows of
 /// the table with oblique light; its rows with theta_i = 0 are not looked at. A dozen rows are
@@ -49,6 +50,6 @@ YarnLobes fit_yarn_lobes(const Bard &bard, double f0);
 /// oblique lights together. Throws Error naming `where`: less than 4 oblique rows; a light whose
 /// views are all 0, or a bard of zeros; as check_table; f0 as above.
 YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double f0,
-                         const std::string &where);
+                         const std::string &where, const Progress &progress = {});
 
 } // namespace tsuya
