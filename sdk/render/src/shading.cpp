@@ -107,10 +107,9 @@ std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const View
         }
         return light;
     }
-    const auto drawn = kLambert.sample(to_viewer, u);
-    if (!drawn || !diffuse_)
+    glm::vec3 to_light = kLambert.draw(to_viewer, u);
+    if (!(to_light.z > 0 && to_viewer.z > 0) || !diffuse_)
         return std::nullopt;
-    glm::vec3 to_light = drawn->direction;
     if (choice.y < transmitted_draws_)
         to_light.z = -to_light.z;
     const Weighed w = weigh(to_light, to_viewer, view);

@@ -86,7 +86,7 @@ WeighedLight GgxCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewe
 }
 
 // [Heitz2018] listing 1.
-std::optional<glm::vec3> GgxCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
+glm::vec3 GgxCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     const glm::vec3 alpha(alpha_weft_, alpha_warp_, 1);
     const glm::vec3 seen = glm::normalize(alpha * fixed);
     const float across = glm::length(glm::vec2(seen));

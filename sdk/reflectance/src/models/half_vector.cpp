@@ -105,12 +105,12 @@ WeighedLight HalfVectorCore::weigh(const glm::vec3 &to_light, const glm::vec3 &t
 }
 
 // Draws H, and mirrors the view in it. A facet that looks away is a null sample.
-std::optional<glm::vec3> HalfVectorCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
+glm::vec3 HalfVectorCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     const glm::vec2 p = disk_of_square(density_.sample({u.x, u.y}).point);
     const glm::vec3 half(p, std::sqrt(std::max(1 - glm::dot(p, p), 0.0f)));
     const float facing = glm::dot(fixed, half);
     if (!(facing > 0))
-        return std::nullopt;
+        return glm::vec3(0);
     return 2 * facing * half - fixed;
 }
 

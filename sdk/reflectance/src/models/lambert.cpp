@@ -13,9 +13,9 @@ WeighedLight LambertCore::weigh(const glm::vec3 &to_light, const glm::vec3 &) co
     return {albedo_ * kInversePi * to_light.z, kInversePi * to_light.z};
 }
 
-std::optional<glm::vec3> LambertCore::draw(const glm::vec3 &, const glm::vec3 &u) const {
+glm::vec3 LambertCore::draw(const glm::vec3 &, const glm::vec3 &u) const {
     const glm::vec2 p = disk_of_square({u.x, u.y});
-    return glm::vec3(p, std::sqrt(1.0f - glm::dot(p, p)));
+    return {p, std::sqrt(1.0f - glm::dot(p, p))};
 }
 
 template class Model<LambertCore>;

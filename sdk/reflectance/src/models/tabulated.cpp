@@ -138,12 +138,11 @@ WeighedLight TabulatedCore::weigh_view(const glm::vec3 &to_light,
             view_sampler_.pdf(to_light, to_viewer)};
 }
 
-std::optional<glm::vec3> TabulatedCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
+glm::vec3 TabulatedCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
     return light_sampler_.sample(to_viewer, u);
 }
 
-std::optional<glm::vec3> TabulatedCore::draw_view(const glm::vec3 &to_light,
-                                                  const glm::vec3 &u) const {
+glm::vec3 TabulatedCore::draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const {
     return view_sampler_.sample(to_light, u);
 }
 

@@ -132,25 +132,24 @@ WeighedLight TakedaCore::weigh_view(const glm::vec3 &to_light, const glm::vec3 &
 
 // Most lights by the facet that mirrors the view into them; what lies below the horizon is a null
 // sample.
-std::optional<glm::vec3> TakedaCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
-    if (u.z >= kHalfShare)
+glm::vec3 TakedaCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
+    if (!(u.z < kHalfShare))
         return direction_of_disk(disk_of_square({u.x, u.y}));
     const glm::vec2 p = 2.0f * halves_.sample({u.x, u.y}).point - 1.0f;
     const float z2 = 1 - glm::dot(p, p);
-    const glm::vec3 half(p, std::sqrt(std::max(z2, 0.0f)));
+    if (!(z2 > 0))
+        return glm::vec3(0);
+    const glm::vec3 half(p, std::sqrt(z2));
     const float facing = glm::dot(to_viewer, half);
-    if (!(z2 > 0 && facing > 0))
-        return std::nullopt;
-    return 2 * facing * half - to_viewer;
+    return facing > 0 ? 2 * facing * half - to_viewer : glm::vec3(0);
 }
 
 // Where rho0 repeats after half a turn, V0 is turned to R's side with probability 1/2 - theta_i/pi:
 // the density of the view then has no jump by the slope of the map.
-std::optional<glm::vec3> TakedaCore::draw_view(const glm::vec3 &to_light,
-                                               const glm::vec3 &u) const {
+glm::vec3 TakedaCore::draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const {
     const glm::vec2 p = 2.0f * basics_.sample({u.x, u.y}).point - 1.0f;
     if (!(glm::dot(p, p) < 1))
-        return std::nullopt;
+        return glm::vec3(0);
     glm::vec3 basic = direction_of_disk(p);
     if (half_turn_) {
         const float tilt = angle_of(glm::length(glm::vec2(to_light)), to_light.z);

@@ -68,22 +68,21 @@ float TakedaPrintedCore::f_cos(const glm::vec3 &to_light, const glm::vec3 &to_vi
 }
 
 WeighedLight TakedaPrintedCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
-    return {f_cos(to_light, to_viewer), lights_.pdf(to_viewer, to_light)};
+    const float density = lights_.pdf(to_viewer, to_light);
+    return {f_cos(to_light, to_viewer), density};
 }
 
 WeighedLight TakedaPrintedCore::weigh_view(const glm::vec3 &to_light,
                                            const glm::vec3 &to_viewer) const {
-    return {terms(to_light, to_viewer).cos(to_viewer.z, to_light.z),
-            views_.pdf(to_light, to_viewer)};
+    const float density = views_.pdf(to_light, to_viewer);
+    return {terms(to_light, to_viewer).cos(to_viewer.z, to_light.z), density};
 }
 
-std::optional<glm::vec3> TakedaPrintedCore::draw(const glm::vec3 &to_viewer,
-                                                 const glm::vec3 &u) const {
+glm::vec3 TakedaPrintedCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
     return lights_.sample(to_viewer, u);
 }
 
-std::optional<glm::vec3> TakedaPrintedCore::draw_view(const glm::vec3 &to_light,
-                                                      const glm::vec3 &u) const {
+glm::vec3 TakedaPrintedCore::draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const {
     return views_.sample(to_light, u);
 }
 

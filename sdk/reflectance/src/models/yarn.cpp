@@ -160,7 +160,7 @@ WeighedLight YarnCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_view
 
 // Draws H, and mirrors the view in it, or a light from the diffuse part. A facet that looks away is
 // a null sample.
-std::optional<glm::vec3> YarnCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
+glm::vec3 YarnCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     return draws_.sample(fixed, u);
 }
 

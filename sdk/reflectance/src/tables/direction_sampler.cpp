@@ -65,16 +65,14 @@ DirectionSampler::DirectionSampler(const Density &density)
     });
 }
 
-std::optional<glm::vec3> DirectionSampler::sample(const glm::vec3 &fixed,
-                                                  const glm::vec3 &u) const {
+glm::vec3 DirectionSampler::sample(const glm::vec3 &fixed, const glm::vec3 &u) const {
     const std::array<Corner, 4> corner = corners(fixed);
     float rest = u.z;
     std::size_t chosen = 0;
     while (chosen < 3 && rest >= corner[chosen].weight)
         rest -= corner[chosen++].weight;
     const auto &table = density_[static_cast<std::size_t>(corner[chosen].index)];
-    const glm::vec3 d = direction_of_disk(disk_of_square(table.sample({u.x, u.y}).point));
-    return d.z > 0 ? std::optional(d) : std::nullopt;
+    return direction_of_disk(disk_of_square(table.sample({u.x, u.y}).point));
 }
 
 float DirectionSampler::pdf(const glm::vec3 &fixed, const glm::vec3 &drawn) const {

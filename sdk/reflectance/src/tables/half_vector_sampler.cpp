@@ -179,8 +179,7 @@ glm::vec3 HalfVectorSampler::draw(const Node &node, const glm::vec3 &fixed,
     return facing > 0 ? 2 * facing * half - fixed : glm::vec3(0);
 }
 
-std::optional<glm::vec3> HalfVectorSampler::sample(const glm::vec3 &fixed,
-                                                   const glm::vec3 &u) const {
+glm::vec3 HalfVectorSampler::sample(const glm::vec3 &fixed, const glm::vec3 &u) const {
     const glm::vec2 sign = sign_of(fixed);
     const glm::vec3 folded(sign * glm::vec2(fixed), fixed.z);
     const std::array<Corner, 4> corner = corners(folded);
@@ -197,9 +196,7 @@ std::optional<glm::vec3> HalfVectorSampler::sample(const glm::vec3 &fixed,
         std::clamp((u.z - before) / std::max(corner[k].weight, 1e-9f), 0.0f, 0x1.fffffep-1f);
     const glm::vec3 drawn =
         draw(nodes_[static_cast<std::size_t>(corner[k].index)], folded, {u.x, u.y, way});
-    if (!(drawn.z > 0))
-        return std::nullopt;
-    return glm::vec3(sign * glm::vec2(drawn), drawn.z);
+    return {sign * glm::vec2(drawn), drawn.z};
 }
 
 float HalfVectorSampler::pdf(const glm::vec3 &fixed, const glm::vec3 &half, float facing,

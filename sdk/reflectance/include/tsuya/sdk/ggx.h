@@ -57,7 +57,7 @@ class GgxCore {
     explicit GgxCore(const GgxFacets &facets, const Progress &progress = {});
 
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &direction) const;
 
   private:

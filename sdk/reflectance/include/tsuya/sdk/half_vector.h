@@ -38,7 +38,7 @@ class HalfVectorCore {
     HalfVectorCore(const Bard &bard, double f0, const Progress &progress = {});
 
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &direction) const;
 
     /// The value rests on facets that light from straight above does not show.

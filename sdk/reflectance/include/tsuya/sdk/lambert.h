@@ -27,7 +27,7 @@ class LambertCore {
     explicit constexpr LambertCore(float albedo = 1) : albedo_(albedo) {}
 
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &) const { return albedo_; }
 
   private:

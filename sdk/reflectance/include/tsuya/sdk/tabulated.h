@@ -40,10 +40,10 @@ class TabulatedCore {
 
     float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
+    glm::vec3 draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &to_light) const;
     WeighedLight weigh_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
+    glm::vec3 draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
     float albedo_of_view(const glm::vec3 &to_viewer) const;
 
   private:

@@ -46,10 +46,10 @@ class TakedaCore {
     void f_cos(std::span<const glm::vec3> to_light, std::span<const glm::vec3> to_viewer,
                std::span<float> f_cos) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
+    glm::vec3 draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &to_light) const;
     WeighedLight weigh_view(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
+    glm::vec3 draw_view(const glm::vec3 &to_light, const glm::vec3 &u) const;
     float albedo_of_view(const glm::vec3 &to_viewer) const;
 
     /// Largest albedo_of_light before it was limited.

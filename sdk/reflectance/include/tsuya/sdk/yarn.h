@@ -53,7 +53,7 @@ class YarnCore {
 
     float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
-    std::optional<glm::vec3> draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &direction) const;
 
     const YarnLobes &lobes() const { return lobes_; }

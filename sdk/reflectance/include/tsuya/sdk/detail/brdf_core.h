@@ -19,8 +19,8 @@
 /// | `draw_view(to_light, u)` | a view for a light |
 /// | `albedo_of_view(to_viewer)` | radiance seen from there under an even environment |
 ///
-/// The directions that a core is given are unit with z > 0; those that it draws are unit and may
-/// lie below the horizon, which makes a null sample. Where the value alone takes less time than
+/// The directions that a core is given are unit with z > 0. Those that it draws are unit, or have z
+/// <= 0, which makes a null sample. Where the value alone takes less time than
 /// `weigh`, or is needed to make the tables of `draw`, a core also has `f_cos(to_light,
 /// to_viewer)`, and it may have that for spans.
 
@@ -39,14 +39,14 @@ namespace tsuya {
 template <class Core>
 concept TellsBothWays = requires(const Core &core, glm::vec3 a, glm::vec3 b) {
     { core.weigh_view(a, b) } -> std::same_as<WeighedLight>;
-    { core.draw_view(a, b) } -> std::same_as<std::optional<glm::vec3>>;
+    { core.draw_view(a, b) } -> std::same_as<glm::vec3>;
     { core.albedo_of_view(a) } -> std::same_as<float>;
 };
 
 template <class Core>
 concept BrdfCore = requires(const Core &core, glm::vec3 a, glm::vec3 b) {
     { core.weigh(a, b) } -> std::same_as<WeighedLight>;
-    { core.draw(a, b) } -> std::same_as<std::optional<glm::vec3>>;
+    { core.draw(a, b) } -> std::same_as<glm::vec3>;
     { core.albedo(a) } -> std::same_as<float>;
     { Core::kReciprocal } -> std::convertible_to<bool>;
     { Core::kEnergyLimited } -> std::convertible_to<bool>;
@@ -84,10 +84,10 @@ inline std::optional<SampledDirection> weighed_sample(const glm::vec3 &direction
 template <class Core>
 std::optional<SampledDirection> sample_light(const Core &core, const glm::vec3 &to_viewer,
                                              const glm::vec3 &u) {
-    const std::optional<glm::vec3> to_light = core.draw(to_viewer, u);
-    if (!to_light || !(to_light->z > 0))
+    const glm::vec3 to_light = core.draw(to_viewer, u);
+    if (!(to_light.z > 0))
         return std::nullopt;
-    return weighed_sample(*to_light, core.weigh(*to_light, to_viewer));
+    return weighed_sample(to_light, core.weigh(to_light, to_viewer));
 }
 
 /// Draws a view for a light with z > 0.
@@ -97,10 +97,10 @@ std::optional<SampledDirection> sample_view(const Core &core, const glm::vec3 &t
     if constexpr (Core::kReciprocal) {
         return sample_light(core, to_light, u);
     } else {
-        const std::optional<glm::vec3> to_viewer = core.draw_view(to_light, u);
-        if (!to_viewer || !(to_viewer->z > 0))
+        const glm::vec3 to_viewer = core.draw_view(to_light, u);
+        if (!(to_viewer.z > 0))
             return std::nullopt;
-        return weighed_sample(*to_viewer, core.weigh_view(to_light, *to_viewer));
+        return weighed_sample(to_viewer, core.weigh_view(to_light, to_viewer));
     }
 }
 
@@ -130,13 +130,14 @@ template <class Core> class Model : public Core {
                       std::span<float> f_cos) const requires HasBatches<Core> {
         Core::f_cos(to_light, to_viewer, f_cos);
     }
-    std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
+    [[gnu::flatten]] std::optional<SampledDirection> sample(const glm::vec3 &to_viewer,
+                                                            const glm::vec3 &u) const {
         if (!(to_viewer.z > 0))
             return std::nullopt;
         return detail::sample_light<Core>(*this, to_viewer, u);
     }
-    std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
-                                                   const glm::vec3 &u) const {
+    [[gnu::flatten]] std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
+                                                                    const glm::vec3 &u) const {
         if (!(to_light.z > 0))
             return std::nullopt;
         return detail::sample_view<Core>(*this, to_light, u);

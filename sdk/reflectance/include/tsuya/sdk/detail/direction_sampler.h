@@ -3,7 +3,6 @@
 /// Draws one direction for another from tables, for models whose formula cannot be inverted.
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -24,8 +23,8 @@ class DirectionSampler {
     explicit DirectionSampler(const Density &density);
 
     /// \param fixed unit, z > 0
-    /// \return empty where the direction would lie on the horizon
-    std::optional<glm::vec3> sample(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    /// \return unit, z >= 0
+    glm::vec3 sample(const glm::vec3 &fixed, const glm::vec3 &u) const;
     /// 1/sr of `drawn`; both unit with z > 0.
     float pdf(const glm::vec3 &fixed, const glm::vec3 &drawn) const;
 

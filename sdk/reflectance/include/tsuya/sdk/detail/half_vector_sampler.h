@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -35,8 +34,8 @@ class HalfVectorSampler {
     HalfVectorSampler(bool mirrored, const Facets &facets, const Model &model, float even);
 
     /// \param fixed unit, z > 0
-    /// \return unit; empty where the direction would lie at or below the horizon
-    std::optional<glm::vec3> sample(const glm::vec3 &fixed, const glm::vec3 &u) const;
+    /// \return unit, also below the horizon; zero where the half vector looks away
+    glm::vec3 sample(const glm::vec3 &fixed, const glm::vec3 &u) const;
     /// Density of the drawn direction, 1/sr.
     /// \param half unit half vector of the two directions
     /// \param facing cosine of either direction with it
