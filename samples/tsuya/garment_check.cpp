@@ -13,6 +13,7 @@
 namespace tsuya::program {
 namespace {
 
+// [doc:command]
 struct GarmentCheck final : Command {
     std::filesystem::path mesh{};
     std::string unit = "m";
@@ -25,6 +26,7 @@ struct GarmentCheck final : Command {
         o.flag("--strict", &strict, "exit status 4 where there is a warning");
         o.example("tsuya garment check dress.obj --strict");
     }
+    // [/doc:command]
 
     Status run(Console &) override {
         const double metres = garment::metres_per(unit);
@@ -81,6 +83,8 @@ struct GarmentCheck final : Command {
 
 } // namespace
 
+// [doc:make_command]
 std::unique_ptr<Command> make_garment_check() { return std::make_unique<GarmentCheck>(); }
+// [/doc:make_command]
 
 } // namespace tsuya::program

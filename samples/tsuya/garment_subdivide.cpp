@@ -66,6 +66,7 @@ struct GarmentSubdivide final : Command {
                                         .strict = strict};
         const garment::LoadedGarment loaded = garment::load(mesh, settings, console.progress());
         console.warnings(loaded.report, mesh.string());
+        // [doc:command_run]
         scene::prepare_output_file(output);
         if (output.extension() == ".ply")
             garment::write_ply(output, loaded.surface);
@@ -73,6 +74,7 @@ struct GarmentSubdivide final : Command {
             garment::write_obj(output, loaded.surface);
         std::cout << output.string() << "\n";
         return kDone;
+        // [/doc:command_run]
     }
 };
 
