@@ -33,7 +33,7 @@ std::string text_of(const std::filesystem::path &file) {
 } // namespace
 
 Outcome run_program(const std::vector<std::string> &arguments, const std::filesystem::path &scratch,
-                    const std::function<bool(const std::string &err)> &interrupt_when) {
+                    const std::function<int(const std::string &err)> &signal_for) {
     const std::string out = scratch.string() + ".out", err = scratch.string() + ".err";
     std::vector<std::string> all{TSUYA_PROGRAM};
     all.insert(all.end(), arguments.begin(), arguments.end());
@@ -48,18 +48,24 @@ Outcome run_program(const std::vector<std::string> &arguments, const std::filesy
     if (child == 0)
         become(pointers, out.c_str(), err.c_str());
     int status = 0;
-    bool interrupted = false;
-    while (waitpid(child, &status, interrupt_when && !interrupted ? WNOHANG : 0) == 0) {
-        if (interrupt_when(text_of(err))) {
-            kill(child, SIGINT);
-            interrupted = true;
-        }
+    while (waitpid(child, &status, signal_for ? WNOHANG : 0) == 0) {
+        if (const int signal = signal_for(text_of(err)); signal != 0)
+            kill(child, signal);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);
     return run;
+}
+
+std::function<int(const std::string &)> once(int signal, std::string text) {
+    return [signal, text = std::move(text), sent = false](const std::string &err) mutable {
+        if (sent || err.find(text) == std::string::npos)
+            return 0;
+        sent = true;
+        return signal;
+    };
 }
 
 } // namespace tsuya::program

@@ -14,10 +14,13 @@ struct Outcome {
     std::string err; ///< standard error
 };
 
-/// Runs the program to its end. Where `interrupt_when` is given, SIGINT is sent once it becomes
-/// true of what is on stderr so far.
+/// Runs the program to its end. Where `signal_for` is given, it is asked again and again with what
+/// is on stderr so far, and the signal that it names is sent; 0: none.
 /// \param scratch a folder for the streams
 Outcome run_program(const std::vector<std::string> &arguments, const std::filesystem::path &scratch,
-                    const std::function<bool(const std::string &err)> &interrupt_when = {});
+                    const std::function<int(const std::string &err)> &signal_for = {});
+
+/// For run_program: the signal, once `text` is on stderr.
+std::function<int(const std::string &err)> once(int signal, std::string text);
 
 } // namespace tsuya::program

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <sstream>
 
+#include <signal.h>
+
 #include <nlohmann/json.hpp>
 
 #include "samples/process.h"
@@ -263,15 +265,18 @@ TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
         return std::vector<std::string>{"render", scene_file, "-o",         out,
                                         "--spp",  "16384",    "--progress", "json"};
     };
-    const Outcome interrupted =
-        run_program(call(parts), scratch.folder(), [](const std::string &err) {
-            return err.find("\"render\"") != std::string::npos;
-        });
-    ASSERT_EQ(interrupted.status, 3) << interrupted.err;
-    EXPECT_NE(interrupted.err.find("--resume"), std::string::npos);
-    EXPECT_EQ(interrupted.out, parts + "\n");
-    ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
-    const SpectralImage partial = read_spectral_exr(parts);
+    SpectralImage partial;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) { // each goes on from the one before
+        std::vector<std::string> next = call(parts);
+        if (signal != SIGINT)
+            next.push_back("--resume");
+        const Outcome interrupted = run_program(next, scratch.folder(), once(signal, "\"render\""));
+        ASSERT_EQ(interrupted.status, 3) << interrupted.err;
+        EXPECT_NE(interrupted.err.find("--resume"), std::string::npos);
+        EXPECT_EQ(interrupted.out, parts + "\n");
+        ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
+        partial = read_spectral_exr(parts);
+    }
 
     std::vector<std::string> resume = call(parts);
     resume.push_back("--resume");
