@@ -84,13 +84,15 @@ struct Render final : Command {
         if (resume && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
         const RenderResult result = render(built.scene, settings, console.progress());
+        for (const Problem &warning : result.warnings)
+            console.warning((warning.where.empty() ? "" : warning.where + ": ") + warning.what +
+                            (warning.accepted.empty() ? "" : "; " + warning.accepted));
         write_results(file, result);
-        if (result.stats.not_finite > 0)
-            console.warning(std::to_string(result.stats.not_finite) +
-                            " samples were not finite and are left out");
         if (!result.stats.interrupted)
             return kDone;
-        console.error("interrupted; --resume goes on from " + settings.checkpoint.string());
+        console.error(fs::exists(settings.checkpoint)
+                          ? "interrupted; --resume goes on from " + settings.checkpoint.string()
+                          : "interrupted");
         return kInterrupted;
     }
 
@@ -114,8 +116,7 @@ struct Render final : Command {
             settings.aovs = aovs;
         if (!crop.empty())
             settings.crop = crop_of(file);
-        settings.checkpoint = output;
-        settings.checkpoint += ".checkpoint";
+        settings.checkpoint = checkpoint();
         settings.resume = resume;
         return settings;
     }
@@ -128,6 +129,11 @@ struct Render final : Command {
                          "expected x0,y0,x1,y1 within " + std::to_string(width) + " x " +
                              std::to_string(height)});
         return {crop[0], crop[1], crop[2], crop[3]};
+    }
+
+    fs::path checkpoint() const {
+        fs::path path = output;
+        return path += ".checkpoint";
     }
 
     fs::path picture_of(const NamedLamp &lamp) const {
@@ -152,8 +158,14 @@ struct Render final : Command {
     }
 
     void write_results(const scene::SceneFile &file, const RenderResult &result) const {
+        // Stopped before the first sample: what stands under the name is not replaced by nothing
+        if (result.stats.interrupted && result.stats.samples_per_pixel == 0)
+            return;
         write_spectral_exr(output, result.image);
         std::cout << output.string() << "\n";
+        // Only now is the checkpoint of no more use
+        if (!result.stats.interrupted)
+            fs::remove(checkpoint());
         if (!result.stats.interrupted)
             for (const NamedLamp &lamp : file.output.lamps) {
                 const fs::path path = picture_of(lamp);

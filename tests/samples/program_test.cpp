@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "limited_disk.h"
 #include "samples/process.h"
 #include "samples/scratch.h"
 #include "tsuya/color/image_file.h"
@@ -287,6 +288,30 @@ TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
     const SpectralImage expected = read_spectral_exr(whole);
     EXPECT_EQ(read_spectral_exr(parts).transport, expected.transport);
     EXPECT_NE(partial.transport, expected.transport); // or nothing was interrupted
+}
+
+// A picture that cannot be written costs nothing: its checkpoint stays.
+TEST(Program, KeepsTheCheckpointOfAPictureThatCannotBeWritten) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const std::string exr = (scratch / "a.exr").string(), checkpoint = exr + ".checkpoint";
+    std::vector<std::string> call{"render", scene_file, "-o", exr, "--spp", "16384"};
+    call.insert(call.end(), {"--progress", "json"});
+    const Outcome interrupted = run_program(call, scratch.folder(), [](const std::string &err) {
+        return err.find("\"render\"") != std::string::npos;
+    });
+    ASSERT_EQ(interrupted.status, 3) << interrupted.err;
+    call.back() = "off"; // stderr is a file here
+    call.push_back("--resume");
+    {
+        const test::FileSizeLimit limit(2000);
+        const Outcome failed = run(scratch, call);
+        EXPECT_EQ(failed.status, 1);
+        EXPECT_NE(failed.err.find("of this size"), std::string::npos) << failed.err;
+    }
+    ASSERT_TRUE(fs::exists(checkpoint));
+    EXPECT_EQ(run(scratch, call).status, 0);
+    EXPECT_FALSE(fs::exists(checkpoint));
 }
 
 TEST(Program, RelightsAndCompares) {

@@ -51,6 +51,15 @@ TEST(SceneFile, HasDefaults) {
     EXPECT_EQ(file.output.look.view, "Soft");
 }
 
+TEST(SceneFile, ALightAtItsTargetIsOneProblem) {
+    const Scratch scratch;
+    const std::vector<Problem> problems = problems_of(
+        scratch, "[fabrics.silk]\n[garments.cloth]\nmesh = \"cloth.obj\"\nfabric = \"silk\"\n"
+                 "[lights.key]\ncentre = [1, 2, 3]\ntarget = [1, 2, 3]\n");
+    ASSERT_EQ(problems.size(), 1u) << problems[1].what;
+    EXPECT_NE(problems[0].what.find("at its target"), std::string::npos) << problems[0].what;
+}
+
 TEST(SceneFile, BuildsAScene) {
     const Scratch scratch;
     const BuiltScene built = build_scene(read(scratch, small_scene("[backdrop]\n")));

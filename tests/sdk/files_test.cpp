@@ -1,14 +1,13 @@
 // Errors, files, checkpoints and what else long work shares.
 
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
+#include "limited_disk.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/detail/checkpoint.h"
 #include "tsuya/sdk/detail/hasher.h"
@@ -41,25 +40,6 @@ template <class Work> Problem problem_of(Work &&work) {
     ADD_FAILURE() << "expected an Error";
     return {};
 }
-
-/// Files of this process end at so many bytes while it lives.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) {
-        getrlimit(RLIMIT_FSIZE, &saved_);
-        const rlimit limit{bytes, saved_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-        previous_ = std::signal(SIGXFSZ, SIG_IGN);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &saved_);
-        std::signal(SIGXFSZ, previous_);
-    }
-
-  private:
-    rlimit saved_{};
-    void (*previous_)(int) = nullptr;
-};
 
 TEST_F(Files, AFailedReplacementKeepsWhatStoodThere) {
     const fs::path file = folder_ / "a.txt";

@@ -89,7 +89,7 @@ void SceneReader::read() {
     if (file_.garments.empty() && file_.bodies.empty())
         root_.problem("garments", "the scene has no garment and no body",
                       "expected [garments.NAME] with mesh and fabric");
-    if (file_.lights.empty() && !file_.environment)
+    if (!names_light_ && !file_.environment)
         root_.problem("lights", "the scene has no light",
                       "expected [lights.NAME] or [environment]");
 }
@@ -243,8 +243,10 @@ void SceneReader::read_backdrop() {
 
 void SceneReader::read_lights() {
     if (const auto lights = root_.section("lights"))
-        for (const auto &[name, section] : lights->sections())
+        for (const auto &[name, section] : lights->sections()) {
+            names_light_ = true;
             read_light(name, section);
+        }
 }
 
 void SceneReader::read_light(const std::string &name, const Section &section) {
@@ -303,8 +305,7 @@ void SceneReader::read_render() {
     render.aovs = section->texts("aovs").value_or(std::vector<std::string>{});
     for (const std::string &aov : render.aovs)
         if (std::find(known.begin(), known.end(), aov) == known.end())
-            section->problem("aovs", "no further picture '" + aov + "'",
-                             accepted_names(aov, known));
+            section->problem("aovs", "no AOV '" + aov + "'", accepted_names(aov, known));
 }
 
 void SceneReader::read_output() {

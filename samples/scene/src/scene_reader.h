@@ -49,6 +49,7 @@ class SceneReader {
     Section root_;
     std::filesystem::path folder_;
     SceneFile &file_;
+    bool names_light_ = false;
 };
 
 } // namespace tsuya::scene

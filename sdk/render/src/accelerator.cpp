@@ -1,31 +1,14 @@
 #include "accelerator.h"
 
-#include <limits>
+#include <mutex>
 #include <string>
 
 #include <embree3/rtcore.h>
 
+#include "tsuya/sdk/detail/embree_ray.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
-namespace {
-
-RTCRay make_ray(const glm::vec3 &origin, const glm::vec3 &direction, float farthest) {
-    return {.org_x = origin.x,
-            .org_y = origin.y,
-            .org_z = origin.z,
-            .tnear = 0,
-            .dir_x = direction.x,
-            .dir_y = direction.y,
-            .dir_z = direction.z,
-            .time = 0,
-            .tfar = farthest,
-            .mask = ~0u,
-            .id = 0,
-            .flags = 0};
-}
-
-} // namespace
 
 struct Accelerator::State {
     RTCDevice device = nullptr;
@@ -42,7 +25,7 @@ struct Accelerator::State {
     }
 };
 
-Accelerator::Accelerator(const Scene &scene, const glm::dvec3 &centre)
+Accelerator::Accelerator(const Scene &scene, const glm::dvec3 &centre, const Progress &progress)
     : state_(std::make_unique<State>()) {
     state_->device = rtcNewDevice(nullptr);
     if (!state_->device)
@@ -68,11 +51,33 @@ Accelerator::Accelerator(const Scene &scene, const glm::dvec3 &centre)
         rtcAttachGeometryByID(state_->scene, geometry, i);
         rtcReleaseGeometry(geometry);
     }
+    build(progress);
+}
+
+void Accelerator::build(const Progress &progress) {
+    // Embree asks from all of its threads whether to go on, and says how far it is
+    struct Monitor {
+        const Progress &progress;
+        std::mutex reporting{};
+    } monitor{progress};
+    rtcSetSceneProgressMonitorFunction(
+        state_->scene,
+        [](void *given, double fraction) {
+            Monitor &m = *static_cast<Monitor *>(given);
+            if (const std::unique_lock lock(m.reporting, std::try_to_lock); lock)
+                m.progress("prepare", fraction);
+            return !m.progress.stopped();
+        },
+        &monitor);
     rtcCommitScene(state_->scene);
-    if (const RTCError error = rtcGetDeviceError(state_->device); error != RTC_ERROR_NONE)
-        throw Error({"Embree cannot build the acceleration structure (error " +
-                         std::to_string(static_cast<int>(error)) + ")",
-                     "", "expected enough memory for the scene"});
+    rtcSetSceneProgressMonitorFunction(state_->scene, nullptr, nullptr);
+    const RTCError error = rtcGetDeviceError(state_->device);
+    if (error == RTC_ERROR_CANCELLED || progress.stopped())
+        throw Interrupted("stopped while the BVH was built");
+    if (error != RTC_ERROR_NONE)
+        throw Error(
+            {"Embree cannot build the BVH (error " + std::to_string(static_cast<int>(error)) + ")",
+             "", "expected enough memory for the scene"});
 }
 
 Accelerator::~Accelerator() = default;
@@ -85,7 +90,7 @@ bool Accelerator::intersect(const glm::vec3 &origin, const glm::vec3 &direction,
                             Hit &hit) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query{.ray = make_ray(origin, direction, farthest), .hit = {}};
+    RTCRayHit query{.ray = detail::make_ray<RTCRay>(origin, direction, farthest), .hit = {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -102,7 +107,7 @@ bool Accelerator::occluded(const glm::vec3 &origin, const glm::vec3 &direction,
                            float farthest) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay ray = make_ray(origin, direction, farthest);
+    RTCRay ray = detail::make_ray<RTCRay>(origin, direction, farthest);
     rtcOccluded1(state_->scene, &context, &ray);
     return ray.tfar < 0;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The acceleration structure: the one file that knows Embree.
+// The BVH: the one file of the renderer that knows Embree.
 
 #include <cstdint>
 #include <memory>
@@ -7,11 +7,12 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/scene.h"
 
 namespace tsuya {
 
-// Where a ray met a surface.
+// Where a ray hit a surface.
 struct Hit {
     float distance;
     glm::vec3 barycentric; // weights of the three vertices
@@ -22,8 +23,9 @@ struct Hit {
 
 class Accelerator {
   public:
+    // Throws Interrupted where progress.stop becomes true, and Error for a scene too large.
     // \param centre subtracted from every position before it becomes a float
-    Accelerator(const Scene &scene, const glm::dvec3 &centre);
+    Accelerator(const Scene &scene, const glm::dvec3 &centre, const Progress &progress);
     ~Accelerator();
     Accelerator(const Accelerator &) = delete;
     Accelerator &operator=(const Accelerator &) = delete;
@@ -37,6 +39,8 @@ class Accelerator {
 
   private:
     struct State;
+    void build(const Progress &progress);
+
     std::unique_ptr<State> state_;
 };
 

@@ -8,6 +8,11 @@
 
 namespace tsuya {
 
+inline constexpr std::size_t kMostChannels = 32;
+
+// One value a channel, for any number of channels.
+using ChannelValues = std::array<float, kMostChannels>;
+
 template <int K> struct Channels {
     std::array<float, K> v{};
 
@@ -21,9 +26,14 @@ template <int K> struct Channels {
         for (std::size_t k = 0; k < K; ++k)
             v[k] += a.v[k] * b.v[k] * s;
     }
+    // this += a * s
     void add(const Channels &a, float s) {
         for (std::size_t k = 0; k < K; ++k)
             v[k] += a.v[k] * s;
+    }
+    void add(const ChannelValues &a, float s) {
+        for (std::size_t k = 0; k < K; ++k)
+            v[k] += a[k] * s;
     }
     void multiply(const Channels &a) {
         for (std::size_t k = 0; k < K; ++k)

@@ -7,20 +7,10 @@
 #include <numeric>
 #include <string>
 
-#include "tsuya/sdk/error.h"
-#include "tsuya/sdk/file.h"
-
 namespace tsuya {
 namespace {
 
 constexpr int kTileSize = 32;
-constexpr char kMagic[] = "tsuya-checkpoint 1\n";
-
-std::vector<std::string> channels_of(const std::string &aov) {
-    if (aov == "normal" || aov == "warp")
-        return {"X", "Y", "Z"};
-    return {aov == "depth" ? "Z" : "A"};
-}
 
 // FNV-1a over the bytes of values
 struct Hasher {
@@ -43,6 +33,24 @@ struct Hasher {
 };
 
 } // namespace
+
+std::vector<std::string> channels_of(const std::string &aov) {
+    if (aov == "normal" || aov == "warp")
+        return {"X", "Y", "Z"};
+    return {aov == "depth" ? "Z" : "A"};
+}
+
+std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &settings) {
+    std::uint64_t aovs = 0;
+    for (const std::string &aov : settings.aovs)
+        aovs += channels_of(aov).size();
+    const std::uint64_t transport =
+        scene.light_groups.size() * static_cast<std::uint64_t>(settings.channels);
+    // In the film, which has the sum of squares too, and in the picture that is made of it
+    const std::uint64_t floats = 2 * (transport + aovs) + 1;
+    return floats * sizeof(float) * static_cast<std::uint64_t>(scene.camera.width) *
+           static_cast<std::uint64_t>(scene.camera.height);
+}
 
 Film::Film(const Scene &scene, const RenderSettings &settings)
     : width(scene.camera.width), height(scene.camera.height), channels(settings.channels),
@@ -93,7 +101,15 @@ double Film::relative_error() const {
     return total.values > 0 ? total.errors / total.values : 0;
 }
 
-SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) {
+std::uint64_t Film::samples() const {
+    std::uint64_t n = 0;
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+        n += static_cast<std::uint64_t>(done[t]) *
+             static_cast<std::uint64_t>((tiles[t].x1 - tiles[t].x0) * (tiles[t].y1 - tiles[t].y0));
+    return n;
+}
+
+SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) const {
     SpectralImage image =
         SpectralImage::make(width, height, {.count = channels}, scene.light_groups);
     image.aovs = aov_sums;
@@ -178,48 +194,6 @@ std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings) {
     h.value(scene.camera.width);
     h.value(scene.camera.height);
     return h.state;
-}
-
-void save_checkpoint(const Film &film, std::uint64_t print, const std::filesystem::path &file) {
-    std::string bytes = kMagic;
-    const auto append = [&](const void *data, std::size_t size) {
-        bytes.append(static_cast<const char *>(data), size);
-    };
-    append(&print, sizeof print);
-    append(&film.not_finite, sizeof film.not_finite);
-    append(&film.rays, sizeof film.rays);
-    append(film.done.data(), film.done.size() * sizeof film.done[0]);
-    append(film.sum.data(), film.sum.size() * sizeof film.sum[0]);
-    append(film.sum_of_squares.data(), film.sum_of_squares.size() * sizeof(float));
-    for (const Image &aov : film.aov_sums)
-        append(aov.data.data(), aov.data.size() * sizeof(float));
-    write_file(file, bytes);
-}
-
-void load_checkpoint(Film &film, std::uint64_t print, const std::filesystem::path &file) {
-    const std::string bytes = read_file(file);
-    std::size_t at = sizeof kMagic - 1;
-    if (bytes.compare(0, at, kMagic) != 0)
-        throw Error({"the file is not a checkpoint of a render", file.string(),
-                     "expected the file that an interrupted render left; remove it to start anew"});
-    const auto take = [&](void *data, std::size_t size) {
-        if (bytes.size() - at < size)
-            throw Error({"the checkpoint is cut off", file.string(), "remove it to start anew"});
-        std::memcpy(data, bytes.data() + at, size);
-        at += size;
-    };
-    std::uint64_t found = 0;
-    take(&found, sizeof found);
-    if (found != print)
-        throw Error({"the checkpoint is of another scene or other settings", file.string(),
-                     "expected the same scene and settings; remove it to start anew"});
-    take(&film.not_finite, sizeof film.not_finite);
-    take(&film.rays, sizeof film.rays);
-    take(film.done.data(), film.done.size() * sizeof film.done[0]);
-    take(film.sum.data(), film.sum.size() * sizeof film.sum[0]);
-    take(film.sum_of_squares.data(), film.sum_of_squares.size() * sizeof(float));
-    for (Image &aov : film.aov_sums)
-        take(aov.data.data(), aov.data.size() * sizeof(float));
 }
 
 } // namespace tsuya

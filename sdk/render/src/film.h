@@ -1,8 +1,8 @@
 #pragma once
-// The sums of a render in the making, tile by tile, and the file that keeps them.
+// The sums over samples that a picture is made of, tile by tile.
 
 #include <cstdint>
-#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tsuya/sdk/render.h"
@@ -16,6 +16,9 @@ struct Tile {
     int x0, y0, x1, y1;
 };
 
+// Channel names of an AOV.
+std::vector<std::string> channels_of(const std::string &aov);
+
 // Sums over samples. Each tile knows how many samples its pixels have.
 struct Film {
     Film(const Scene &scene, const RenderSettings &settings);
@@ -27,20 +30,28 @@ struct Film {
     std::vector<float> sum{};            // [y][x][group][k]
     std::vector<float> sum_of_squares{}; // [y][x], of the mean over groups and channels
     std::vector<Image> aov_sums{};
-    std::uint64_t not_finite = 0, rays = 0;
+    std::uint64_t not_finite = 0; // samples left out of the sums
+    std::uint64_t rays = 0;
+    double seconds = 0; // of tracing, over all runs
+
+    // Bytes of a film and of the picture that is made of it.
+    static std::uint64_t bytes_needed(const Scene &scene, const RenderSettings &settings);
 
     float *pixel(int x, int y) {
-        return sum.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                             static_cast<std::size_t>(x)) *
-                                groups * static_cast<std::size_t>(channels);
+        return sum.data() + at(x, y) * groups * static_cast<std::size_t>(channels);
     }
+    const float *pixel(int x, int y) const {
+        return sum.data() + at(x, y) * groups * static_cast<std::size_t>(channels);
+    }
+    // Traced so far, those that are not finite too.
+    std::uint64_t samples() const;
     // Mean standard error of the pixels of a tile over their mean value, or over kDark where they
     // are darker; infinite before there are two samples.
     double relative_error(std::size_t tile) const;
     // The same for the whole picture.
     double relative_error() const;
     // Means of the sums.
-    SpectralImage develop(const Scene &scene, const RenderSettings &settings);
+    SpectralImage develop(const Scene &scene, const RenderSettings &settings) const;
     std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                static_cast<std::size_t>(x);
@@ -56,10 +67,5 @@ struct Film {
 
 // What must be the same for a render to go on: a hash of scene and settings.
 std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings);
-
-void save_checkpoint(const Film &film, std::uint64_t fingerprint,
-                     const std::filesystem::path &file);
-// Throws Error naming the file: not a checkpoint, cut off, or of another scene.
-void load_checkpoint(Film &film, std::uint64_t fingerprint, const std::filesystem::path &file);
 
 } // namespace tsuya

@@ -1,10 +1,11 @@
 #include "lights.h"
-#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
@@ -41,10 +42,11 @@ Lights::Lights(const Scene &scene, const Plan &plan, const glm::dvec3 &centre,
         if (environment.picture) {
             picture_ = &*environment.picture;
             std::vector<double> mass;
-            for (int y = 0; y < picture_->height; ++y)
+            for (int y = 0; y < picture_->height; ++y) {
+                const double sine = std::sin(kPiF * (y + 0.5) / picture_->height);
                 for (int x = 0; x < picture_->width; ++x)
-                    mass.push_back(picture_->pixel(x, y)[0] *
-                                   std::sin(kPiF * (y + 0.5) / picture_->height));
+                    mass.push_back(picture_->pixel(x, y)[0] * sine);
+            }
             environment_density_ = Distribution2D(mass, picture_->height, picture_->width);
             given.push_back(kPiF * environment.radiance *
                             std::accumulate(mass.begin(), mass.end(), 0.0) /

@@ -1,9 +1,27 @@
+// What one sample adds to the transport T of a light group. The camera ray hits the path's vertex
+// x_0; at each vertex x_n the cloth draws the direction w_n of the next ray, with density p:
+//
+//   T = L(camera ray, where it leaves the scene) + sum over n >= 0 of beta_n (S_n + M_n)
+//
+//   throughput       beta_0 = 1,  beta_{n+1} = beta_n f(w_n) |cos| / (p(w_n) q_n)
+//   sampled lights   S_n = sum over lights i of  f(w) |cos| L_i(w) V / (c_i p_i(w))  m_i(w)
+//   lights met       M_n = f(w_n) |cos| / p(w_n)  sum over lights i of  L_i(w_n) m_p(w_n)
+//
+// with f the BRDF, L_i the radiance of light i, V its visibility, and q_n the probability that the
+// path goes on (Russian roulette, [Veach] section 10.4.1). Light i is sampled with density p_i; at
+// x_0 every light is (c_i = 1), at later vertices one, chosen with probability c_i. The sums over
+// both ways to find a light are weighted by the balance heuristic, [Veach] section 9.2.2:
+//
+//   m_i(w) = c_i p_i(w) / (c_i p_i(w) + p(w)),    m_p(w) = p(w) / (c_i p_i(w) + p(w))
+//
+// so that S_n's terms become f |cos| L_i V / (c_i p_i + p): no quotient of small densities.
+
 #include "path_tracer.h"
 
 #include <cmath>
 #include <limits>
 
-#include "ray_offset.h"
+#include "vertex.h"
 
 namespace tsuya {
 namespace {
@@ -11,192 +29,173 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // A shadow ray ends this share short of the light.
 constexpr float kShadowReach = 1.0f - 1e-4f;
-// Paths may end by chance from this vertex on.
-constexpr std::uint32_t kSurvivalFrom = 3;
+// Russian roulette from this vertex on.
+constexpr std::uint32_t kRouletteFrom = 3;
 
-// A tent of two pixels width.
+// What is lost to NaN or overflow makes the sample not finite: it is counted, and left out.
+template <int K> void spoil(Channels<K> *radiance) {
+    radiance[0] = Channels<K>::filled(std::numeric_limits<float>::quiet_NaN());
+}
+
+// A sample of the pixel filter, a tent two pixels wide.
 float tent(float u) { return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
 
-// The light seen in the mirror of the surface's geometric plane.
-glm::vec3 mirrored(const glm::vec3 &d, const glm::vec3 &geometric_normal) {
-    return d - 2 * glm::dot(d, geometric_normal) * geometric_normal;
+// A response in its colours, times a number.
+template <int K>
+Channels<K> coloured(const Response &response, const Colours &colours, float scale) {
+    Channels<K> result;
+    for (std::size_t k = 0; k < K; ++k)
+        result.v[k] = (colours.dye[k] * response.diffuse + colours.warp[k] * response.warp) * scale;
+    if (response.weft > 0)
+        result.add(colours.weft, response.weft * scale);
+    if (response.transmitted > 0)
+        result.add(colours.transmittance, response.transmitted * scale);
+    return result;
 }
 
 } // namespace
 
-template <int K> struct PathTracer<K>::Vertex {
-    const SurfacePoint &point;
-    const Shading &shading;
-    const Colours<Channels<K>> &colours;
-    glm::vec3 to_viewer; // local
-    ViewTerms view;
-    std::uint32_t depth;
+// A path up to its last vertex, with the ray that goes on from there.
+template <int K> struct PathTracer<K>::Path {
+    const Sampler &sampler;
+    Channels<K> *radiance; // per light group
+    glm::vec3 origin{}, direction{};
+    std::uint32_t vertex = 0; // index of the last vertex
+    Channels<K> throughput = Channels<K>::filled(1.0f);
 
-    // f cos and pdf of a light on either side of the geometric surface. Directions that the shading
-    // normal's hemisphere has on the other side of it are folded back, so that no energy is lost
-    // and none leaks through.
-    Shading::Weighed weigh(const glm::vec3 &to_light) const {
-        const bool above = glm::dot(to_light, point.geometric_normal) > 0;
-        Shading::Weighed w;
-        for (const glm::vec3 &light : {to_light, mirrored(to_light, point.geometric_normal)}) {
-            const glm::vec3 local = point.frame.to_local(light);
-            if ((local.z > 0) != above)
-                continue;
-            const Shading::Weighed part = shading.weigh(local, to_viewer, view);
-            w.f_cos.add(part.f_cos);
-            w.pdf += part.pdf;
-        }
-        return w;
-    }
-
-    // Rays start on this side of the surface.
-    glm::vec3 origin(const glm::vec3 &direction) const {
-        const bool above = glm::dot(direction, point.geometric_normal) > 0;
-        return offset_ray(point.position, above ? point.geometric_normal : -point.geometric_normal);
-    }
-
-    void colour(const Response &r, float scale, Channels<K> &result) const {
-        for (std::size_t k = 0; k < K; ++k)
-            result.v[k] = (colours.dye.v[k] * r.diffuse + colours.warp.v[k] * r.warp) * scale;
-        if (r.weft > 0)
-            result.add(colours.weft, r.weft * scale);
-        if (r.transmitted > 0)
-            result.add(colours.transmittance, r.transmitted * scale);
+    glm::vec2 random(Purpose purpose, std::size_t which = 0) const {
+        return sampler.pair(vertex, purpose, static_cast<std::uint32_t>(which));
     }
 };
 
-template <int K> PathTracer<K>::PathTracer(const PreparedScene &prepared) : p_(prepared) {
-    for (const Colours<std::vector<float>> &from : prepared.colours) {
-        Colours<Channels<K>> &to = colours_.emplace_back();
-        std::copy_n(from.dye.begin(), K, to.dye.v.begin());
-        std::copy_n(from.transmittance.begin(), K, to.transmittance.v.begin());
-        std::copy_n(from.weft.begin(), K, to.weft.v.begin());
-        std::copy_n(from.warp.begin(), K, to.warp.v.begin());
-    }
+template <int K> bool PathTracer<K>::intersect(const Path &path, Hit &hit) {
+    ++rays_;
+    return scene_.accelerator.intersect(path.origin, path.direction, kInfinity, hit);
+}
+
+// The c_i of the estimator.
+template <int K> float PathTracer<K>::light_share(const Path &path, std::size_t light) const {
+    return path.vertex == 0 ? 1.0f : scene_.lights.choice_probability(light);
+}
+
+// Adds beta_n S_n.
+template <int K>
+void PathTracer<K>::sample_lights(const Path &path, const Vertex &vertex, const Colours &colours) {
+    const std::size_t count = scene_.lights.count();
+    if (path.vertex == 0)
+        for (std::size_t i = 0; i < count; ++i)
+            sample_light(path, vertex, colours, i);
+    else if (count > 0)
+        sample_light(path, vertex, colours,
+                     scene_.lights.choose(path.random(Purpose::light_choice).x));
 }
 
 template <int K>
-void PathTracer<K>::light_directly(const Vertex &vertex, std::size_t light, float probability,
-                                   const Sampler &sampler, const Channels<K> &throughput,
-                                   Channels<K> *radiance) {
-    const auto ray = p_.lights.sample(
-        light, vertex.point.position,
-        sampler.pair(vertex.depth, Purpose::light_point, static_cast<std::uint32_t>(light)));
-    if (!ray || !(ray->radiance > 0) ||
-        !(vertex.shading.transmits() || glm::dot(ray->to_light, vertex.point.geometric_normal) > 0))
+void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const Colours &colours,
+                                 std::size_t light) {
+    const auto ray =
+        scene_.lights.sample(light, vertex.position(), path.random(Purpose::light_point, light));
+    if (!ray || !(ray->radiance > 0) || !vertex.accepts(ray->to_light))
         return;
-    const Shading::Weighed w = vertex.weigh(ray->to_light);
+    const Weighed w = vertex.weigh(ray->to_light);
     if (!(w.f_cos.sum() > 0))
         return;
     ++rays_;
-    if (p_.accelerator.occluded(vertex.origin(ray->to_light), ray->to_light,
-                                ray->distance * kShadowReach))
+    if (scene_.accelerator.occluded(vertex.ray_origin(ray->to_light), ray->to_light,
+                                    ray->distance * kShadowReach))
         return;
-    // [Veach] balance heuristic
-    const float light_pdf = ray->pdf * probability;
-    Channels<K> f;
-    vertex.colour(w.f_cos, ray->radiance / (light_pdf + w.pdf), f);
-    radiance[ray->group].add(f, throughput, 1.0f);
+    const float light_pdf = ray->pdf * light_share(path, light);
+    path.radiance[ray->group].add(
+        coloured<K>(w.f_cos, colours, ray->radiance / (light_pdf + w.pdf)), path.throughput, 1.0f);
 }
 
+// Adds beta_n M_n; the path's throughput is beta_{n+1} already, but for the roulette.
+// \param distance to the next surface; infinite where there is none
+// \param pdf of the path's direction
 template <int K>
-void PathTracer<K>::meet_lights(const glm::vec3 &from, const glm::vec3 &direction, float distance,
-                                bool missed, float pdf, std::uint32_t depth,
-                                const Channels<K> &throughput, Channels<K> *radiance) const {
-    // At the first vertex every light is sampled, later one
-    const auto share = [&](std::size_t light) {
-        return depth == 0 ? 1.0f : p_.lights.choice_probability(light);
-    };
-    p_.lights.meet_rectangles(
-        from, direction, distance,
+void PathTracer<K>::add_lights_met(const Path &path, float distance, float pdf) const {
+    const Lights &lights = scene_.lights;
+    lights.meet_rectangles(
+        path.origin, path.direction, distance,
         [&](float emitted, std::uint32_t group, float light_pdf, std::size_t light) {
-            radiance[group].add(throughput, emitted * pdf / (pdf + light_pdf * share(light)));
+            path.radiance[group].add(path.throughput,
+                                     emitted * pdf / (pdf + light_pdf * light_share(path, light)));
         });
-    if (missed && p_.lights.has_environment()) {
-        const float emitted = p_.lights.environment_radiance(direction);
-        const float light_pdf = p_.lights.environment_pdf(direction);
-        const float weight =
-            light_pdf > 0 ? pdf / (pdf + light_pdf * share(p_.lights.environment_light())) : 1.0f;
-        radiance[p_.lights.environment_group()].add(throughput, emitted * weight);
-    }
+    if (distance < kInfinity || !lights.has_environment())
+        return;
+    const float emitted = lights.environment_radiance(path.direction);
+    const float light_pdf = lights.environment_pdf(path.direction);
+    const float weight =
+        light_pdf > 0 ? pdf / (pdf + light_pdf * light_share(path, lights.environment_light()))
+                      : 1.0f;
+    path.radiance[lights.environment_group()].add(path.throughput, emitted * weight);
+}
+
+// Russian roulette, whose probability is the throughput's.
+template <int K> bool PathTracer<K>::survives(Path &path) const {
+    if (path.vertex + 1 < kRouletteFrom)
+        return true;
+    const float probability = std::fmin(1.0f, path.throughput.largest());
+    if (path.random(Purpose::survival).x >= probability)
+        return false;
+    path.throughput.scale(1 / probability);
+    return true;
 }
 
 template <int K>
 void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *radiance,
                           std::size_t groups, FirstHit *first) {
     std::fill_n(radiance, groups, Channels<K>{});
-    const glm::vec2 filter = sampler.pair(0, Purpose::pixel);
-    glm::vec3 origin = p_.eye;
-    glm::vec3 direction = p_.camera_direction(static_cast<float>(x) + 0.5f + tent(filter.x),
-                                              static_cast<float>(y) + 0.5f + tent(filter.y));
+    Path path{.sampler = sampler, .radiance = radiance};
+
+    // Camera ray through a sample of the pixel filter
+    const glm::vec2 filter = path.random(Purpose::pixel);
+    path.origin = scene_.eye;
+    path.direction = scene_.camera_direction(static_cast<float>(x) + 0.5f + tent(filter.x),
+                                             static_cast<float>(y) + 0.5f + tent(filter.y));
     Hit hit;
-    ++rays_;
-    if (!p_.accelerator.intersect(origin, direction, kInfinity, hit)) {
-        if (p_.lights.has_environment() && p_.lights.environment_visible())
-            radiance[p_.lights.environment_group()] =
-                Channels<K>::filled(p_.lights.environment_radiance(direction));
+    if (!intersect(path, hit)) {
+        if (scene_.lights.has_environment() && scene_.lights.environment_visible())
+            radiance[scene_.lights.environment_group()] =
+                Channels<K>::filled(scene_.lights.environment_radiance(path.direction));
         return;
     }
 
-    Channels<K> throughput = Channels<K>::filled(1.0f);
-    for (std::uint32_t depth = 0;; ++depth) {
-        const SurfacePoint point = p_.point(direction, hit);
-        if (depth == 0 && first)
+    for (;; ++path.vertex) {
+        // Vertex at the hit
+        const SurfacePoint point = scene_.point(path.direction, hit);
+        if (!point.is_finite())
+            return spoil(radiance);
+        if (path.vertex == 0 && first)
             *first = {true, hit.distance, point.frame.normal, point.frame.warp, hit.object};
-        Vertex vertex{point,
-                      p_.shading[point.fabric],
-                      colours_[point.fabric],
-                      point.frame.to_local(-direction),
-                      {},
-                      depth};
-        vertex.view = vertex.shading.view_terms(vertex.to_viewer);
+        const Vertex vertex(scene_, point, path.direction);
+        const Colours &colours = scene_.colours[point.fabric];
 
-        // Light that arrives straight from a light
-        if (depth == 0)
-            for (std::size_t i = 0; i < p_.lights.count(); ++i)
-                light_directly(vertex, i, 1.0f, sampler, throughput, radiance);
-        else if (p_.lights.count() > 0) {
-            const std::size_t i = p_.lights.choose(sampler.pair(depth, Purpose::light_choice).x);
-            light_directly(vertex, i, p_.lights.choice_probability(i), sampler, throughput,
-                           radiance);
-        }
+        // Direct light, found by sampling the lights
+        sample_lights(path, vertex, colours);
 
-        // Go on in a direction that the fabric draws
-        const auto drawn = vertex.shading.sample(vertex.to_viewer, vertex.view,
-                                                 sampler.pair(depth, Purpose::lobe_and_strategy),
-                                                 sampler.pair(depth, Purpose::direction));
-        if (!drawn)
+        // Next direction, sampled from the cloth's response
+        const auto next =
+            vertex.sample(path.random(Purpose::lobe_and_strategy), path.random(Purpose::direction));
+        if (!next)
             return;
-        glm::vec3 next = point.frame.to_world(drawn->to_light);
-        const bool through = drawn->to_light.z < 0;
-        if ((glm::dot(next, point.geometric_normal) > 0) == through)
-            next = mirrored(next, point.geometric_normal);
-        Shading::Weighed w{drawn->response, drawn->pdf};
-        const glm::vec3 folded = point.frame.to_local(mirrored(next, point.geometric_normal));
-        if ((folded.z > 0) != through)
-            w = vertex.weigh(next);
-        if (!(w.pdf > 0))
+        const auto &[f_cos, pdf] = next->weighed;
+        path.throughput.multiply(coloured<K>(f_cos, colours, 1 / pdf));
+        if (!(path.throughput.largest() > 0))
             return;
-        Channels<K> f;
-        vertex.colour(w.f_cos, 1 / w.pdf, f);
-        throughput.multiply(f);
-        if (!(throughput.largest() > 0))
-            return;
+        path.origin = vertex.ray_origin(next->to_light);
+        path.direction = next->to_light;
+        if (!std::isfinite(glm::dot(path.origin, path.direction)))
+            return spoil(radiance);
 
-        origin = vertex.origin(next);
-        direction = next;
-        ++rays_;
-        const bool found = p_.accelerator.intersect(origin, direction, kInfinity, hit);
-        meet_lights(origin, direction, found ? hit.distance : kInfinity, !found, w.pdf, depth,
-                    throughput, radiance);
-        if (!found || depth >= static_cast<std::uint32_t>(p_.plan.max_bounces))
+        // Direct light, met by that ray
+        const bool found = intersect(path, hit);
+        add_lights_met(path, found ? hit.distance : kInfinity, pdf);
+
+        // End of the path
+        if (!found || path.vertex >= static_cast<std::uint32_t>(scene_.plan.max_bounces) ||
+            !survives(path))
             return;
-        if (depth + 1 >= kSurvivalFrom) {
-            const float survives = std::fmin(1.0f, throughput.largest());
-            if (sampler.pair(depth, Purpose::survival).x >= survives)
-                return;
-            throughput.scale(1 / survives);
-        }
     }
 }
 

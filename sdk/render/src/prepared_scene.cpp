@@ -1,9 +1,11 @@
+#include "prepared_scene.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "path_tracer.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
@@ -29,16 +31,18 @@ double radius_of(const Scene &scene, const glm::dvec3 &centre) {
     return std::sqrt(radius2);
 }
 
-float mean(const std::vector<float> &v) {
-    return std::accumulate(v.begin(), v.end(), 0.0f) / static_cast<float>(v.size());
+ChannelValues values_of(const Spectrum &spectrum, const SpectralBasis &basis) {
+    const std::vector<float> projected = project(spectrum, basis);
+    ChannelValues values{};
+    std::copy(projected.begin(), projected.end(), values.begin());
+    return values;
 }
 
-Colours<std::vector<float>> colours_of(const Material &material, const SpectralBasis &basis) {
-    Colours<std::vector<float>> c{
-        project(material.dye, basis), project(material.transmittance, basis),
-        project(material.weft_tint, basis), project(material.warp_tint, basis)};
+Colours colours_of(const Material &material, const SpectralBasis &basis) {
+    Colours c{values_of(material.dye, basis), values_of(material.transmittance, basis),
+              values_of(material.weft_tint, basis), values_of(material.warp_tint, basis)};
     // Least squares may leave the range where a spectrum has a steep edge
-    for (std::vector<float> *const colour : {&c.dye, &c.weft, &c.warp})
+    for (ChannelValues *const colour : {&c.dye, &c.weft, &c.warp})
         for (float &value : *colour)
             value = std::min(value, 1.0f);
     for (std::size_t k = 0; k < c.dye.size(); ++k)
@@ -46,24 +50,41 @@ Colours<std::vector<float>> colours_of(const Material &material, const SpectralB
     return c;
 }
 
+MeanColours means_of(const Colours &c, int channels) {
+    const auto mean = [&](const ChannelValues &v) {
+        return std::accumulate(v.begin(), v.begin() + channels, 0.0f) /
+               static_cast<float>(channels);
+    };
+    return {mean(c.dye), mean(c.transmittance), 0.5f * (mean(c.weft) + mean(c.warp))};
+}
+
 } // namespace
 
 PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool keep_idle_parts,
-                             const SpectralBasis &basis)
+                             const SpectralBasis &basis, const Progress &progress)
     : scene(the_scene), plan(the_plan), centre(middle_of(the_scene)),
-      accelerator(the_scene, centre),
+      accelerator(the_scene, centre, progress),
       lights(the_scene, the_plan, centre, radius_of(the_scene, centre)) {
+    prepare_fabrics(keep_idle_parts, basis, progress);
+    prepare_camera();
+}
+
+void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis,
+                                    const Progress &progress) {
     std::vector<bool> used(scene.fabrics.size(), keep_idle_parts);
     for (const Object &object : scene.objects)
         used[object.fabric.value] = true;
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
+        if (progress.stopped())
+            throw Interrupted("stopped while the fabrics were prepared");
         const Material material =
             used[i] ? resolve(scene.fabrics[i], "fabrics." + scene.fabrics[i].name) : Material{};
-        const Colours<std::vector<float>> &c = colours.emplace_back(colours_of(material, basis));
-        const MeanColours means{mean(c.dye), mean(c.transmittance),
-                                0.5f * (mean(c.weft) + mean(c.warp))};
-        shading.emplace_back(material, means, keep_idle_parts);
+        colours.push_back(colours_of(material, basis));
+        shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
     }
+}
+
+void PreparedScene::prepare_camera() {
     const Camera &camera = scene.camera;
     const double half_height = std::tan(0.5 * camera.vertical_angle);
     const glm::dvec3 ahead = glm::normalize(camera.target - camera.eye);

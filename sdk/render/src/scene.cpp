@@ -1,20 +1,41 @@
 #include "tsuya/sdk/scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
 
+bool is_length(const glm::dvec3 &v) {
+    return std::abs(v.x) <= kLargestLength && std::abs(v.y) <= kLargestLength &&
+           std::abs(v.z) <= kLargestLength; // false for NaN
+}
+
+bool is_radiance(double v) { return v >= 0 && v <= kLargestRadiance; }
+
+std::string number_text(double v) {
+    std::ostringstream text;
+    text << v;
+    return text.str();
+}
+
+std::string lengths_text() {
+    return "expected coordinates within " + number_text(kLargestLength) + " m";
+}
+
+std::string radiances_text() { return "expected 0 to " + number_text(kLargestRadiance); }
+
 // Collects the broken rules of a scene.
 struct SceneCheck {
     const Scene &scene;
-    std::vector<Problem> problems{};
+    Problems problems{};
 
     void need(bool rule, std::string what, std::string where, std::string accepted) {
-        if (!rule && problems.size() < kMaxProblems)
-            problems.push_back({std::move(what), std::move(where), std::move(accepted)});
+        problems.need(rule, std::move(what), std::move(where), std::move(accepted));
     }
 
     void objects() {
@@ -36,49 +57,76 @@ struct SceneCheck {
                  where, "expected a surface with UV, or a grain direction to invent one");
         }
         for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
-            try {
-                check_surface(scene.surfaces[i], "surfaces[" + std::to_string(i) + "]");
-            } catch (const Error &error) {
-                problems.push_back(error.problems()[0]);
-            }
+            check_shape(scene.surfaces[i], "surfaces[" + std::to_string(i) + "]");
+    }
+
+    void check_shape(const Surface &surface, const std::string &where) {
+        try {
+            check_surface(surface, where);
+        } catch (const Error &error) {
+            return problems.add(error);
+        }
+        need(std::all_of(surface.position.begin(), surface.position.end(), is_length),
+             "a vertex lies too far away", where, lengths_text());
+    }
+
+    void check_group(LightGroupIndex group, const std::string &where) {
+        if (!scene.light_groups.empty()) // without any, that is the problem
+            need(group.value < scene.light_groups.size(),
+                 "no light group " + std::to_string(group.value), where,
+                 "expected an index below " + std::to_string(scene.light_groups.size()));
     }
 
     void lights() {
+        need(!scene.light_groups.empty(), "the scene has no light group", "light_groups",
+             "expected at least one");
         need(!scene.rectangles.empty() || scene.environment, "the scene has no light", "lights",
              "expected a rectangle or an environment");
         for (std::size_t i = 0; i < scene.rectangles.size(); ++i) {
             const RectangleLight &light = scene.rectangles[i];
             const std::string where = "rectangles[" + std::to_string(i) + "]";
-            need(glm::length(glm::cross(light.edge_u, light.edge_v)) > 0, "the light has no area",
-                 where, "expected two edges that are not parallel");
-            need(light.radiance >= 0 && std::isfinite(light.radiance), "the radiance is wrong",
-                 where + ".radiance", "expected a number not below 0");
-            need(light.group.value < scene.light_groups.size(), "no such light group",
-                 where + ".group",
-                 "expected an index below " + std::to_string(scene.light_groups.size()));
+            if (!is_length(light.corner) || !is_length(light.edge_u) || !is_length(light.edge_v))
+                need(false, "the light lies too far away or is too large", where, lengths_text());
+            else
+                need(glm::length(glm::cross(light.edge_u, light.edge_v)) >= kSmallestLight,
+                     "the light has no area", where,
+                     "expected two edges that are not parallel, and at least " +
+                         number_text(kSmallestLight) + " m2");
+            need(is_radiance(light.radiance), "the radiance is " + number_text(light.radiance),
+                 where + ".radiance", radiances_text());
+            check_group(light.group, where + ".group");
         }
-        if (!scene.environment)
+        if (scene.environment)
+            check_environment(*scene.environment);
+    }
+
+    void check_environment(const Environment &environment) {
+        check_group(environment.group, "environment.group");
+        if (!problems.need(is_radiance(environment.radiance),
+                           "the radiance is " + number_text(environment.radiance),
+                           "environment.radiance", radiances_text()) ||
+            !environment.picture)
             return;
-        need(scene.environment->radiance >= 0 && std::isfinite(scene.environment->radiance),
-             "the radiance is wrong", "environment.radiance", "expected a number not below 0");
-        need(scene.environment->group.value < scene.light_groups.size(), "no such light group",
-             "environment.group",
-             "expected an index below " + std::to_string(scene.light_groups.size()));
-        if (const auto &picture = scene.environment->picture) {
-            bool positive = picture->width > 0 && picture->height > 0 && !picture->channels.empty();
-            for (const float v : picture->data)
-                positive = positive && v >= 0 && std::isfinite(v);
-            need(positive, "the picture is empty or has values that are not radiances",
-                 "environment.picture", "expected finite values not below 0");
-        }
+        const Image &picture = *environment.picture;
+        if (!problems.need(picture.width > 0 && picture.height > 0 && !picture.channels.empty(),
+                           "the picture is empty", "environment.picture",
+                           "expected at least one pixel"))
+            return;
+        need(std::all_of(picture.data.begin(), picture.data.end(),
+                         [&](float v) { return v >= 0 && is_radiance(v * environment.radiance); }),
+             "the picture has values that are not radiances", "environment.picture",
+             radiances_text() + ", times environment.radiance too");
     }
 
     void camera() {
         const Camera &c = scene.camera;
-        const double side = glm::length(glm::cross(c.target - c.eye, c.up));
-        need(side > 0 && std::isfinite(side), "the camera looks nowhere or along its up direction",
-             "camera", "expected eye and target apart, and up not parallel to the view");
-        need(c.vertical_angle > 0 && c.vertical_angle < 3.14159, "the angle of view is wrong",
+        if (!is_length(c.eye) || !is_length(c.target) || !is_length(c.up))
+            need(false, "the camera lies too far away", "camera", lengths_text());
+        else
+            need(glm::length(glm::cross(c.target - c.eye, c.up)) > 0,
+                 "the camera looks nowhere or along its up direction", "camera",
+                 "expected eye and target apart, and up not parallel to the view");
+        need(c.vertical_angle > 0 && c.vertical_angle < kPi - 1e-5, "the angle of view is wrong",
              "camera.vertical_angle", "expected more than 0 and less than 180 degrees");
         need(c.width >= 1 && c.width <= 32768 && c.height >= 1 && c.height <= 32768,
              "the picture is " + std::to_string(c.width) + " x " + std::to_string(c.height),
@@ -93,8 +141,7 @@ void check_scene(const Scene &scene) {
     check.objects();
     check.lights();
     check.camera();
-    if (!check.problems.empty())
-        throw Error(std::move(check.problems));
+    check.problems.throw_if_any();
 }
 
 } // namespace tsuya

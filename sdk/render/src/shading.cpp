@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "tsuya/sdk/angle.h"
+
 namespace tsuya {
 namespace {
 
 constexpr LambertBrdf kLambert{};
-// Share of the draws that neither part falls below where both reflect.
+// Least share of the samples that either part gets where both reflect.
 constexpr float kLeastShare = 0.1f;
 constexpr float kLeastTransmission = 1e-3f;
 
@@ -15,7 +17,7 @@ constexpr float kLeastTransmission = 1e-3f;
 Shading::Shading(const Material &material, const MeanColours &means, bool keep_idle_parts)
     : diffuse_(material.has_diffuse() || keep_idle_parts), couples_(material.has_specular()),
       two_tints_(material.weft_tint != material.warp_tint), means_(means),
-      transmitted_draws_(
+      transmitted_share_(
           means.transmittance > 0 ? means.transmittance / (means.dye + means.transmittance) : 0) {
     if (!material.specular || !(material.has_specular() || keep_idle_parts))
         return;
@@ -26,7 +28,7 @@ Shading::Shading(const Material &material, const MeanColours &means, bool keep_i
     for (int i = 0; i < kSteps; ++i)
         for (int j = 0; j < kSteps; ++j) {
             const float sine2 = (static_cast<float>(i) + 0.5f) / kSteps;
-            const float phi = 6.28318531f * (static_cast<float>(j) + 0.5f) / kSteps;
+            const float phi = 2 * kPiF * (static_cast<float>(j) + 0.5f) / kSteps;
             const float s = std::sqrt(sine2);
             sum += albedo({s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - sine2)});
         }
@@ -65,22 +67,22 @@ void Shading::add_specular(Response &response, float all, float weft) const {
     response.warp = all - response.weft;
 }
 
-Shading::Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
-                                const ViewTerms &view) const {
+Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                       const ViewTerms &view) const {
     Weighed w;
     if (!(to_viewer.z > 0))
         return w;
-    const float diffuse_draws = 1 - view.specular_share;
+    const float diffuse_share = 1 - view.specular_share;
     if (to_light.z < 0 && transmits()) {
         const glm::vec3 through(to_light.x, to_light.y, -to_light.z);
         w.f_cos.transmitted = diffuse_cos(through, view);
-        w.pdf = diffuse_draws * transmitted_draws_ * kLambert.pdf(through, to_viewer);
+        w.pdf = diffuse_share * transmitted_share_ * kLambert.pdf(through, to_viewer);
     }
     if (!(to_light.z > 0))
         return w;
     if (diffuse_) {
         w.f_cos.diffuse = diffuse_cos(to_light, view);
-        w.pdf = diffuse_draws * (1 - transmitted_draws_) * kLambert.pdf(to_light, to_viewer);
+        w.pdf = diffuse_share * (1 - transmitted_share_) * kLambert.pdf(to_light, to_viewer);
     }
     if (specular_) {
         const WeighedLight s = specular_->weigh(to_light, to_viewer);
@@ -97,23 +99,22 @@ std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const View
         const auto drawn = specular_->sample(to_viewer, u);
         if (!drawn)
             return std::nullopt;
-        DrawnLight light{drawn->direction, {}, view.specular_share * drawn->pdf_per_sr};
-        add_specular(light.response, drawn->weight * drawn->pdf_per_sr,
-                     drawn->weft * drawn->pdf_per_sr);
+        DrawnLight light{drawn->direction, {{}, view.specular_share * drawn->pdf_per_sr}};
+        Weighed &w = light.weighed;
+        add_specular(w.f_cos, drawn->weight * drawn->pdf_per_sr, drawn->weft * drawn->pdf_per_sr);
         if (diffuse_) {
-            light.response.diffuse = diffuse_cos(light.to_light, view);
-            light.pdf += (1 - view.specular_share) * (1 - transmitted_draws_) *
-                         kLambert.pdf(light.to_light, to_viewer);
+            w.f_cos.diffuse = diffuse_cos(light.to_light, view);
+            w.pdf += (1 - view.specular_share) * (1 - transmitted_share_) *
+                     kLambert.pdf(light.to_light, to_viewer);
         }
         return light;
     }
     glm::vec3 to_light = kLambert.draw(to_viewer, u);
     if (!(to_light.z > 0 && to_viewer.z > 0) || !diffuse_)
         return std::nullopt;
-    if (choice.y < transmitted_draws_)
+    if (choice.y < transmitted_share_)
         to_light.z = -to_light.z;
-    const Weighed w = weigh(to_light, to_viewer, view);
-    return DrawnLight{to_light, w.f_cos, w.pdf};
+    return DrawnLight{to_light, weigh(to_light, to_viewer, view)};
 }
 
 } // namespace tsuya

@@ -1,5 +1,5 @@
 #pragma once
-// What a material does to light but for its colours: the specular model, and below it the dye.
+// A material without its colours: the specular model above the diffuse part.
 
 #include <algorithm>
 #include <optional>
@@ -24,6 +24,22 @@ struct Response {
     }
 };
 
+// f cos of one direction, and the density of drawing it.
+struct Weighed {
+    Response f_cos{};
+    float pdf = 0; // 1/sr
+
+    void add(const Weighed &w) {
+        f_cos.add(w.f_cos);
+        pdf += w.pdf;
+    }
+};
+
+struct DrawnLight {
+    glm::vec3 to_light; // in the cloth's frame z < 0: behind it
+    Weighed weighed{};
+};
+
 // Means of a material's colours over the channels.
 struct MeanColours {
     float dye = 0, transmittance = 0, specular = 0;
@@ -32,31 +48,21 @@ struct MeanColours {
 // What is the same for all lights of one view.
 struct ViewTerms {
     float diffuse_scale = 1;  // (1 - albedo(V)) / (1 - mean albedo)
-    float specular_share = 0; // probability of drawing from the specular part
+    float specular_share = 0; // probability of sampling the specular part
 };
 
-struct DrawnLight {
-    glm::vec3 to_light; // z < 0: behind the cloth
-    Response response;
-    float pdf;
-};
-
-// Colourless part of a material. The dye lies below the specular surface: light that the surface
-// reflects does not reach it, so rho_d is scaled by (1 - A(L)) (1 - A(V)) / (1 - mean A), A the
-// specular albedo. Differs from [Takeda] Eq. 18, which adds rho_d/pi as it is and then reflects
-// more than it receives; the coupling is that of [Kelemen]. What the dyed cloth lets through to its
-// other side is scaled in the same way.
+// How a material scatters, before its colours. The dye lies below the specular surface: light that
+// the surface reflects does not reach it, so rho_d is scaled by (1 - A(L)) (1 - A(V)) / (1 - mean
+// A), A the specular albedo. Differs from [Takeda] Eq. 18, which adds rho_d/pi as it is and then
+// reflects more than it receives; the coupling is that of [Kelemen]. What the dyed cloth lets
+// through to its other side is scaled in the same way.
 class Shading {
   public:
     Shading(const Material &material, const MeanColours &means, bool keep_idle_parts);
 
-    // Light from behind counts.
-    bool transmits() const { return transmitted_draws_ > 0; }
+    // Light from behind is scattered to the viewer.
+    bool transmits() const { return transmitted_share_ > 0; }
     ViewTerms view_terms(const glm::vec3 &to_viewer) const;
-    struct Weighed {
-        Response f_cos;
-        float pdf = 0; // of `sample`
-    };
     // to_light.z < 0: from behind
     Weighed weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
                   const ViewTerms &view) const;
@@ -72,7 +78,7 @@ class Shading {
     bool diffuse_, couples_;
     bool two_tints_;
     MeanColours means_;
-    float transmitted_draws_; // of the draws from the diffuse part
+    float transmitted_share_; // of the samples of the diffuse part
     float mean_albedo_ = 0;
 };
 

@@ -67,7 +67,7 @@ struct TryOnScene {
 /// Throws Error for files that cannot be read, and Interrupted.
 TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
 
-/// Renders the scene of a try-on with one further picture, `coverage`: 1 where the garment fills
+/// Renders the scene of a try-on with one AOV, `coverage`: 1 where the garment fills
 /// the pixel, else 0; compare_lamps counts these pixels. Replaces `settings.aovs`. Throws Error as
 /// render.
 RenderResult render_try_on(const Scene &scene, RenderSettings settings,

@@ -3,12 +3,15 @@
 /// From a scene to lamp-free light transport.
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/plan.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/scene.h"
@@ -20,10 +23,13 @@ namespace tsuya {
 struct StopRule {
     int samples_per_pixel = 64; ///< 1 to 65536; at most, where an error is given
     /// Each part of the picture is done when the mean standard error of its pixels is below this
-    /// share of their mean value: smooth parts are done first.
+    /// share of their mean value: smooth parts are done first. Above 0, finite.
     std::optional<double> relative_error{};
-    std::optional<double> seconds{}; ///< not reproducible
+    /// Of tracing, over all runs that a checkpoint joins; not reproducible. Above 0, finite.
+    std::optional<double> seconds{};
 };
+
+struct RenderResult;
 
 struct RenderSettings {
     StopRule stop{};
@@ -32,23 +38,36 @@ struct RenderSettings {
     int threads = 0;      ///< 0: all
     std::uint32_t seed = 0;
     std::optional<std::array<int, 4>> crop{}; ///< x0, y0, x1, y1 in pixels, half open
-    std::vector<std::string> aovs{};          ///< of aov_names()
-    bool skip =
-        true; ///< false: do even what the plan shows to be idle; the picture must not change
-    /// Where an interrupted render keeps what it has; empty: nowhere. A render finds its own file
-    /// there and goes on when `resume` is set. Removed when the render is done.
+    std::vector<std::string> aovs{};          ///< names of AOVs, see aov_names
+    /// false: do even what the plan shows to be idle; the picture must not change
+    bool skip = true;
+    /// The file in which a render keeps what it has; empty: none. Replaced atomically while it
+    /// runs, and at its end, interrupted or not: it is the caller who removes it, once the picture
+    /// is safe. A checkpoint that cannot be written does not end the render, see
+    /// RenderResult::warnings; an older one stays whole then.
     std::filesystem::path checkpoint{};
+    double checkpoint_seconds = 60; ///< between checkpoints, finite; 0: only at the end
+    /// Go on from `checkpoint` if that file exists. A checkpoint of a render that is complete gives
+    /// its picture at once.
     bool resume = false;
+    /// Where it becomes true (a signal handler may set it), the render sets it to false and gives
+    /// the picture so far to `snapshot`: within about a second, on the thread that called `render`
+    /// or one of its workers, with no tile half done. The render goes on afterwards, to the same
+    /// bits. Nothing happens before the first tile is traced. What `snapshot` throws ends the
+    /// render.
+    std::atomic<bool> *snapshot_wanted = nullptr;
+    std::function<void(const RenderResult &)> snapshot{};
 };
 
-/// Names for RenderSettings::aovs: coverage, depth, normal, warp, object.
+/// Names of AOVs for RenderSettings::aovs: coverage, depth (metres), normal, warp, object (its
+/// index plus 1; 0 where there is none).
 std::vector<std::string> aov_names();
 
 /// What a render did.
 struct RenderStats {
     double samples_per_pixel = 0; ///< mean over the picture
     double seconds = 0;
-    double build_seconds = 0; ///< of the acceleration structure and materials
+    double build_seconds = 0; ///< of the BVH and the materials
     double relative_error = 0;
     std::uint64_t rays = 0;
     std::uint64_t not_finite = 0; ///< samples left out because they were NaN or infinite
@@ -59,11 +78,16 @@ struct RenderStats {
 struct RenderResult {
     SpectralImage image{};
     RenderStats stats{};
+    /// What went wrong and did not cost the picture: samples that are not finite, a checkpoint that
+    /// could not be written. To be shown.
+    std::vector<Problem> warnings{};
 };
 
 /// Renders. On one build the picture is bit-identical for any number of threads, and after stop and
-/// resume (stops by time excepted). Throws Error for a scene or settings that break their rules.
-/// Where progress.stop becomes true, returns what it has with stats.interrupted set.
+/// resume (stops by time excepted). Throws Error for a scene or settings that break their rules,
+/// for more memory than is available, and where more than 1 % of the first samples are not finite.
+/// Where progress.stop becomes true, returns what it has with stats.interrupted set; stopped during
+/// preparation that is a picture of 0, or what the checkpoint had.
 RenderResult render(const Scene &scene, const RenderSettings &settings,
                     const Progress &progress = {});
 

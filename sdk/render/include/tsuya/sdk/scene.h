@@ -26,6 +26,12 @@ using SurfaceIndex = Index<struct SurfaceTag>;
 using FabricIndex = Index<struct FabricTag>;
 using LightGroupIndex = Index<struct LightGroupTag>;
 
+/// Bounds within which sums of float products stay finite: over 65536 samples, with responses of
+/// up to 10^4 /sr and the squares that errors are estimated from.
+inline constexpr double kLargestRadiance = 1e12;
+inline constexpr double kLargestLength = 1e9;   ///< of every coordinate, metres
+inline constexpr double kSmallestLight = 1e-14; ///< area of a rectangle, square metres
+
 /// A surface dressed in a fabric.
 struct Object {
     std::string name{};
@@ -38,14 +44,14 @@ struct Object {
 struct RectangleLight {
     glm::dvec3 corner{0, 2, 2};
     glm::dvec3 edge_u{1, 0, 0}, edge_v{0, 1, 0}; ///< metres
-    double radiance = 1.0;                       ///< >= 0
+    double radiance = 1.0;                       ///< 0 to kLargestRadiance
     LightGroupIndex group{};
 };
 
 /// Light from infinitely far. With a picture: its first channel, latitude-longitude, row 0 towards
 /// +y, the centre column towards +z; scaled by `radiance`.
 struct Environment {
-    double radiance = 1.0; ///< >= 0
+    double radiance = 1.0; ///< 0 to kLargestRadiance, times every value of the picture too
     std::optional<Image> picture{};
     LightGroupIndex group{};
     bool visible = true; ///< to the camera directly
@@ -63,7 +69,7 @@ struct Scene {
 };
 
 /// Throws Error with every broken rule of the scene: an index out of range, a light without area, a
-/// camera that looks nowhere, no light, no object.
+/// radiance or length out of its bounds, a camera that looks nowhere, no light, no object.
 void check_scene(const Scene &scene);
 
 } // namespace tsuya

@@ -21,7 +21,7 @@ struct SpectralImage {
     SpectralBasis basis{};
     std::vector<std::string> groups{}; ///< light group names
     std::vector<float> transport{};    ///< [group][y][x][k]
-    std::vector<Image> aovs{};         ///< further pictures that were asked for, see aov_names
+    std::vector<Image> aovs{};         ///< arbitrary output variables, see aov_names
     std::vector<std::string> aov_names{};
     std::map<std::string, std::string> metadata{}; ///< provenance, e.g. {"samples_per_pixel", "64"}
 

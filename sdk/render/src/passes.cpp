@@ -1,0 +1,192 @@
+#include "passes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include <tbb/parallel_for.h>
+
+#include "path_tracer.h"
+#include "tsuya/sdk/detail/flush_denormals.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Samples that every pixel gets before any gets more: how often stop rules are looked at.
+constexpr int kSamplesPerPass = 8;
+// Passes before an estimate of the error is trusted.
+constexpr int kLeastPasses = 2;
+// Largest share of samples that are not finite: those that remain are too biased then.
+constexpr double kMostNotFinite = 0.01;
+
+void add_first_hit(Film &film, const RenderSettings &settings, int x, int y,
+                   const FirstHit &first) {
+    if (!first.hit)
+        return;
+    for (std::size_t i = 0; i < settings.aovs.size(); ++i) {
+        float *const to = film.aov_sums[i].pixel(x, y);
+        const std::string &name = settings.aovs[i];
+        const glm::vec3 direction = name == "warp" ? first.warp : first.normal;
+        if (name == "coverage")
+            to[0] += 1;
+        else if (name == "depth")
+            to[0] += first.distance;
+        else if (name == "object")
+            to[0] += static_cast<float>(first.object + 1);
+        else
+            for (int c = 0; c < 3; ++c)
+                to[c] += direction[c];
+    }
+}
+
+// All passes of one render with K channels.
+template <int K> class Passes {
+  public:
+    Passes(const PreparedScene &prepared, const RenderSettings &settings, Film &film,
+           FilmKeeper &keeper, const Progress &progress)
+        : prepared_(prepared), settings_(settings), film_(film), keeper_(keeper),
+          progress_(progress) {}
+
+    void run() {
+        const Clock::time_point start = Clock::now();
+        const double seconds_before = film_.seconds;
+        const StopRule &stop = settings_.stop;
+        for (int from = 0; from < stop.samples_per_pixel; from += kSamplesPerPass) {
+            const int to = std::min(from + kSamplesPerPass, stop.samples_per_pixel);
+            for (bool whole = false; !whole;) {
+                whole = pass(from, to);
+                film_.rays += rays_.exchange(0);
+                film_.not_finite += not_finite_.exchange(0);
+                film_.seconds =
+                    seconds_before + std::chrono::duration<double>(Clock::now() - start).count();
+                if (progress_.stopped())
+                    return;
+                keeper_.serve();
+            }
+            if (from == 0)
+                check_finite();
+            if (stop.seconds && film_.seconds >= *stop.seconds)
+                break;
+            if (all_good_enough())
+                break;
+        }
+    }
+
+  private:
+    // Whether a tile needs no more samples. Looks at the tile alone, so that neither threads nor an
+    // interruption change what is rendered.
+    bool good_enough(std::size_t tile) const {
+        return settings_.stop.relative_error &&
+               film_.done[tile] >= kLeastPasses * kSamplesPerPass &&
+               film_.relative_error(tile) <= *settings_.stop.relative_error;
+    }
+    bool all_good_enough() const {
+        for (std::size_t t = 0; t < film_.tiles.size(); ++t)
+            if (!good_enough(t))
+                return false;
+        return true;
+    }
+
+    void check_finite() const {
+        const std::uint64_t samples = film_.samples();
+        if (static_cast<double>(film_.not_finite) > kMostNotFinite * static_cast<double>(samples))
+            throw Error({std::to_string(film_.not_finite) + " of the first " +
+                             std::to_string(samples) + " samples are not finite",
+                         "scene", "expected lengths, lights and colours that float numbers hold"});
+    }
+
+    // Brings the tiles from `from` to `to` samples per pixel. Ends early, with whole tiles and at
+    // least one of them done, where the render is stopped or the keeper waits.
+    // \return whether all tiles are done
+    bool pass(int from, int to) {
+        std::atomic<std::size_t> finished{0};
+        std::atomic<bool> pause{false};
+        tbb::parallel_for(std::size_t{0}, film_.tiles.size(), [&](std::size_t t) {
+            if (progress_.stopped() || pause.load(std::memory_order_relaxed))
+                return;
+            // A tile may have this pass's samples from before a pause, or have had enough
+            if (film_.done[t] < to && !good_enough(t)) {
+                const detail::FlushDenormals flush;
+                render_tile(film_.tiles[t], std::max(from, film_.done[t]), to);
+                film_.done[t] = to;
+                if (keeper_.is_due())
+                    pause = true;
+            }
+            report(from, to, ++finished);
+        });
+        return finished == film_.tiles.size();
+    }
+
+    void report(int from, int to, std::size_t finished) {
+        const std::unique_lock lock(reporting_, std::try_to_lock);
+        if (lock)
+            progress_("render", (from + (to - from) * static_cast<double>(finished) /
+                                            static_cast<double>(film_.tiles.size())) /
+                                    settings_.stop.samples_per_pixel);
+    }
+
+    void render_tile(const Tile &tile, int from, int to) {
+        PathTracer<K> tracer(prepared_);
+        std::vector<Channels<K>> radiance(film_.groups);
+        std::uint64_t not_finite = 0;
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x)
+                for (int s = from; s < to; ++s) {
+                    const std::uint32_t seed =
+                        hash(hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)),
+                             settings_.seed);
+                    FirstHit first;
+                    tracer.trace(x, y, Sampler(seed, static_cast<std::uint32_t>(s)),
+                                 radiance.data(), radiance.size(),
+                                 settings_.aovs.empty() ? nullptr : &first);
+                    add_first_hit(film_, settings_, x, y, first);
+                    not_finite += add(x, y, radiance) ? 0 : 1;
+                }
+        rays_ += tracer.rays();
+        not_finite_ += not_finite;
+    }
+
+    // Adds one sample; false where it is left out because it is not finite.
+    bool add(int x, int y, const std::vector<Channels<K>> &radiance) {
+        float mean = 0;
+        for (const Channels<K> &c : radiance)
+            mean += c.mean() / static_cast<float>(radiance.size());
+        if (!std::isfinite(mean))
+            return false;
+        float *to = film_.pixel(x, y);
+        for (const Channels<K> &c : radiance)
+            for (std::size_t k = 0; k < K; ++k)
+                *to++ += c.v[k];
+        film_.sum_of_squares[film_.at(x, y)] += mean * mean;
+        return true;
+    }
+
+    const PreparedScene &prepared_;
+    const RenderSettings &settings_;
+    Film &film_;
+    FilmKeeper &keeper_;
+    const Progress &progress_;
+    std::atomic<std::uint64_t> rays_{0}, not_finite_{0};
+    std::mutex reporting_;
+};
+
+} // namespace
+
+void trace_passes(const PreparedScene &prepared, const RenderSettings &settings, Film &film,
+                  FilmKeeper &keeper, const Progress &progress) {
+    switch (settings.channels) {
+    case 8:
+        return Passes<8>(prepared, settings, film, keeper, progress).run();
+    case 16:
+        return Passes<16>(prepared, settings, film, keeper, progress).run();
+    default:
+        return Passes<32>(prepared, settings, film, keeper, progress).run();
+    }
+}
+
+} // namespace tsuya

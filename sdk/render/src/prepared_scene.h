@@ -1,0 +1,62 @@
+#pragma once
+// A scene made ready for tracing: BVH, lights, materials, camera.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "accelerator.h"
+#include "channels.h"
+#include "lights.h"
+#include "shading.h"
+#include "tsuya/sdk/frame.h"
+#include "tsuya/sdk/plan.h"
+#include "tsuya/sdk/progress.h"
+#include "tsuya/sdk/scene.h"
+#include "tsuya/sdk/spectrum.h"
+
+namespace tsuya {
+
+// A point on a surface as it is shaded: both normals on the viewer's side.
+struct SurfacePoint {
+    glm::vec3 position;
+    glm::vec3 geometric_normal; // of the triangle
+    Frame frame;                // its normal is the shading normal
+    std::uint32_t fabric;
+
+    // False where the triangle is too small for float numbers to have its normal.
+    bool is_finite() const { return glm::dot(geometric_normal, geometric_normal) > 0.5f; }
+};
+
+// Colours of the parts of a fabric's response, one value a channel of the render.
+struct Colours {
+    ChannelValues dye{}, transmittance{}, weft{}, warp{};
+};
+
+struct PreparedScene {
+    // Throws Error as resolve, and Interrupted where progress.stop becomes true.
+    PreparedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts,
+                  const SpectralBasis &basis, const Progress &progress);
+
+    const Scene &scene;
+    Plan plan;
+    glm::dvec3 centre; // of the scene; the origin of all that is traced
+    Accelerator accelerator;
+    Lights lights;
+    std::vector<Shading> shading{};    // per fabric
+    std::vector<Colours> colours{};    // per fabric
+    glm::vec3 eye, forward, right, up; // camera, scaled to the image plane at distance 1
+
+    // The direction of the camera ray through a place of the picture, in pixels.
+    glm::vec3 camera_direction(float x, float y) const;
+    // The point that a ray of this direction hit.
+    SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
+
+  private:
+    void prepare_camera();
+    void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis,
+                         const Progress &progress);
+};
+
+} // namespace tsuya

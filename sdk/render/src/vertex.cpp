@@ -1,0 +1,43 @@
+#include "vertex.h"
+
+#include "ray_offset.h"
+
+namespace tsuya {
+
+Weighed Vertex::weigh(const glm::vec3 &to_light) const {
+    const bool above = is_above(to_light);
+    Weighed sum;
+    for (const glm::vec3 &light : {to_light, mirrored(to_light)}) {
+        const glm::vec3 local = point_.frame.to_local(light);
+        if ((local.z > 0) == above)
+            sum.add(shading_.weigh(local, to_viewer_, view_));
+    }
+    return sum;
+}
+
+std::optional<DrawnLight> Vertex::sample(glm::vec2 part, glm::vec2 direction) const {
+    std::optional<DrawnLight> drawn = shading_.sample(to_viewer_, view_, part, direction);
+    if (!drawn)
+        return std::nullopt;
+
+    // To the side of the triangle that the cloth scatters to
+    const bool through = drawn->to_light.z < 0;
+    drawn->to_light = point_.frame.to_world(drawn->to_light);
+    if (is_above(drawn->to_light) == through)
+        drawn->to_light = mirrored(drawn->to_light);
+
+    // Where the cloth could have drawn the mirror image too, both count
+    const glm::vec3 other = point_.frame.to_local(mirrored(drawn->to_light));
+    if ((other.z > 0) != through)
+        drawn->weighed = weigh(drawn->to_light);
+    if (!(drawn->weighed.pdf > 0))
+        return std::nullopt;
+    return drawn;
+}
+
+glm::vec3 Vertex::ray_origin(const glm::vec3 &direction) const {
+    return offset_ray(point_.position,
+                      is_above(direction) ? point_.geometric_normal : -point_.geometric_normal);
+}
+
+} // namespace tsuya

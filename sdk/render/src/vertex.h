@@ -1,0 +1,47 @@
+#pragma once
+// A vertex of a path: cloth at a point, seen from the path's previous vertex.
+
+#include <optional>
+
+#include "prepared_scene.h"
+
+namespace tsuya {
+
+// The cloth is shaded in the frame of its shading normal, which differs from the triangle's normal.
+// Directions that lie above one and below the other are mirrored at the plane of the triangle. So
+// no light leaks through the triangle, and none is lost: of each direction on the proper side, the
+// vertex's value and density are the sums of the cloth's own there and at its mirror image.
+class Vertex {
+  public:
+    // \param direction of the ray that hit the point
+    Vertex(const PreparedScene &scene, const SurfacePoint &point, const glm::vec3 &direction)
+        : point_(point), shading_(scene.shading[point.fabric]),
+          to_viewer_(point.frame.to_local(-direction)), view_(shading_.view_terms(to_viewer_)) {}
+
+    const glm::vec3 &position() const { return point_.position; }
+    // Light from this direction can arrive at the viewer.
+    bool accepts(const glm::vec3 &to_light) const {
+        return shading_.transmits() || is_above(to_light);
+    }
+    // f cos, and the density that `sample` has for this direction.
+    Weighed weigh(const glm::vec3 &to_light) const;
+    // A direction to light, in the world. Its density is above 0.
+    // \param part which part of the cloth scatters, and from which side
+    // \param direction within that part
+    std::optional<DrawnLight> sample(glm::vec2 part, glm::vec2 direction) const;
+    // Where a ray of this direction starts: off the triangle, on the side to which it goes.
+    glm::vec3 ray_origin(const glm::vec3 &direction) const;
+
+  private:
+    bool is_above(const glm::vec3 &d) const { return glm::dot(d, point_.geometric_normal) > 0; }
+    glm::vec3 mirrored(const glm::vec3 &d) const {
+        return d - 2 * glm::dot(d, point_.geometric_normal) * point_.geometric_normal;
+    }
+
+    const SurfacePoint &point_;
+    const Shading &shading_;
+    glm::vec3 to_viewer_; // local
+    ViewTerms view_;
+};
+
+} // namespace tsuya
