@@ -16,6 +16,13 @@ namespace {
 std::atomic<bool> stop{false}; // a signal handler can only reach something global
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+std::atomic<bool> snapshot{false};
+
+std::string text_of(const Problem &problem) {
+    return (problem.where.empty() ? "" : problem.where + ": ") + problem.what +
+           (problem.accepted.empty() ? "" : "; " + problem.accepted);
+}
+
 constexpr int kBarWidth = 40;
 constexpr int kPlainStep = 10; // percent between lines
 
@@ -33,8 +40,20 @@ void watch_signals() {
     struct sigaction action {};
     action.sa_handler = [](int) { stop = true; };
     action.sa_flags = static_cast<int>(SA_RESETHAND);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        sigaction(signal, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        sigaction(signal, nullptr, &before);
+        if (signal != SIGHUP || before.sa_handler != SIG_IGN)
+            sigaction(signal, &action, nullptr);
+    }
+}
+
+std::atomic<bool> &watch_snapshot_signal() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { snapshot = true; };
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGUSR1, &action, nullptr);
+    return snapshot;
 }
 
 Progress Console::progress() {
@@ -81,10 +100,7 @@ void Console::error(std::string_view text) {
     std::cerr << "tsuya: " << text << "\n";
 }
 
-void Console::error(const Problem &problem) {
-    error((problem.where.empty() ? "" : problem.where + ": ") + problem.what +
-          (problem.accepted.empty() ? "" : "; " + problem.accepted));
-}
+void Console::error(const Problem &problem) { error(text_of(problem)); }
 
 void Console::errors(const Error &error) {
     for (const Problem &problem : error.problems())
@@ -92,6 +108,13 @@ void Console::errors(const Error &error) {
 }
 
 void Console::warning(std::string_view text) { error("warning: " + std::string(text)); }
+
+void Console::warning(const Problem &problem) { warning(text_of(problem)); }
+
+void Console::warnings(const Error &error) {
+    for (const Problem &problem : error.problems())
+        warning(problem);
+}
 
 void Console::warnings(const garment::Report &report, const std::string &file) {
     for (const garment::Finding &finding : report.findings)

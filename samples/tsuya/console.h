@@ -2,6 +2,7 @@
 /// \file
 /// What the program says while it works: progress and warnings, all on stderr.
 
+#include <atomic>
 #include <string>
 #include <string_view>
 
@@ -21,8 +22,11 @@ enum class ProgressMode { bar, plain, json, off };
 ProgressMode parse_progress_mode(const std::string &name);
 
 /// Sets the flag that `Console::progress` hands out when SIGINT, SIGTERM or SIGHUP arrives; a
-/// second one of its kind ends the process.
+/// second one of its kind ends the process. SIGHUP stays ignored where it is (nohup).
 void watch_signals();
+
+/// Lets SIGUSR1 set the flag that is returned, again and again.
+std::atomic<bool> &watch_snapshot_signal();
 
 class Console {
   public:
@@ -35,6 +39,8 @@ class Console {
     void errors(const Error &error);
     void error(std::string_view text);
     void warning(std::string_view text);
+    void warning(const Problem &problem);
+    void warnings(const Error &error);
     /// The findings that may show in the picture.
     void warnings(const garment::Report &report, const std::string &file);
     /// Ends a line that a bar has begun.

@@ -25,6 +25,7 @@ struct Render final : Command {
     std::optional<std::uint32_t> seed{};
     std::vector<int> crop{};
     std::vector<std::string> aovs{};
+    double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
     bool resume = false, explains = false;
 
     void options(Options &o) override {
@@ -53,12 +54,17 @@ struct Render final : Command {
         o.option("--tolerance-px", &tolerance_px, "PIXELS",
                  "largest distance of the triangles from the limit surface, in the picture")
             .range(1e-3, 1e3);
+        o.option("--checkpoint-every", &checkpoint_seconds, "S",
+                 "seconds between the checkpoints of a running render; 0: only at its end")
+            .range(0, 1e6);
         o.flag("--resume", &resume, "go on from OUT.exr.checkpoint");
         o.flag("--explain", &explains, "print the plan, and do not render");
         o.option("--stats", &stats, "FILE.json", "file for time, rays and error").needs(out);
         o.example("tsuya render dress.scene.toml -o dress.exr --spp 128");
-        o.notes("Options replace the values of the scene file. An interrupted render leaves what "
-                "it has in OUT.exr, and OUT.exr.checkpoint for --resume. The lamps of the scene's "
+        o.notes("Options replace the values of the scene file. SIGINT, SIGTERM and SIGHUP leave "
+                "what there is in OUT.exr, and OUT.exr.checkpoint for --resume; a render that is "
+                "killed leaves its last checkpoint. SIGUSR1 writes the picture so far to OUT.exr, "
+                "and the render goes on. The lamps of the scene's "
                 "[output] give OUT-LAMP.png.");
     }
 
@@ -70,7 +76,9 @@ struct Render final : Command {
             for (scene::MeshEntry &entry : *entries)
                 if (tolerance_px)
                     entry.tolerance_px = tolerance_px;
-        const RenderSettings settings = settings_of(file);
+        RenderSettings settings = settings_of(file);
+        settings.snapshot_wanted = &watch_snapshot_signal();
+        settings.snapshot = [&](const RenderResult &result) { write_snapshot(result, console); };
         if (!explains)
             for_each_place(file, scene::check_output_file);
         const scene::BuiltScene built = scene::build_scene(file, console.progress());
@@ -85,8 +93,7 @@ struct Render final : Command {
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
         const RenderResult result = render(built.scene, settings, console.progress());
         for (const Problem &warning : result.warnings)
-            console.warning((warning.where.empty() ? "" : warning.where + ": ") + warning.what +
-                            (warning.accepted.empty() ? "" : "; " + warning.accepted));
+            console.warning(warning);
         write_results(file, result);
         if (!result.stats.interrupted)
             return kDone;
@@ -117,6 +124,7 @@ struct Render final : Command {
         if (!crop.empty())
             settings.crop = crop_of(file);
         settings.checkpoint = checkpoint();
+        settings.checkpoint_seconds = checkpoint_seconds;
         settings.resume = resume;
         return settings;
     }
@@ -155,6 +163,15 @@ struct Render final : Command {
             act(picture_of(lamp), {});
         if (!stats.empty())
             act(stats, {});
+    }
+
+    /// A picture that cannot be written does not end the render.
+    void write_snapshot(const RenderResult &result, Console &console) const {
+        try {
+            write_spectral_exr(output, result.image);
+        } catch (const Error &problems) {
+            console.warnings(problems);
+        }
     }
 
     void write_results(const scene::SceneFile &file, const RenderResult &result) const {

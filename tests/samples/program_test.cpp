@@ -290,6 +290,50 @@ TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
     EXPECT_NE(partial.transport, expected.transport); // or nothing was interrupted
 }
 
+TEST(Program, ResumesAKilledRenderBitIdentically) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const fs::path exr = scratch / "a.exr", checkpoint = exr.string() + ".checkpoint";
+    std::vector<std::string> call{"render", scene_file, "-o", exr.string(), "--spp", "8192"};
+    call.insert(call.end(), {"--checkpoint-every", "0.1"});
+    const Outcome killed = run_program(call, scratch.folder(), [&](const std::string &) {
+        return fs::exists(checkpoint) ? SIGKILL : 0;
+    });
+    ASSERT_EQ(killed.status, -1) << killed.err;
+    EXPECT_FALSE(fs::exists(exr));
+
+    call.push_back("--resume");
+    const Outcome resumed = run(scratch, call);
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_EQ(resumed.err, "");
+    EXPECT_FALSE(fs::exists(checkpoint));
+    const SpectralImage in_parts = read_spectral_exr(exr);
+    const std::string whole = (scratch / "whole.exr").string();
+    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", whole, "--spp", "8192"}).status, 0);
+    EXPECT_EQ(in_parts.transport, read_spectral_exr(whole).transport);
+}
+
+TEST(Program, WritesThePictureSoFarAtSIGUSR1AndGoesOn) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch), exr = (scratch / "a.exr").string();
+    SpectralImage so_far;
+    const auto ask = once(SIGUSR1, "\"render\"");
+    const Outcome done =
+        run_program({"render", scene_file, "-o", exr, "--spp", "16384", "--progress", "json"},
+                    scratch.folder(), [&](const std::string &err) {
+                        if (so_far.transport.empty() && fs::exists(exr))
+                            so_far = read_spectral_exr(exr);
+                        return ask(err);
+                    });
+    ASSERT_EQ(done.status, 0) << done.err;
+    const std::string whole = (scratch / "whole.exr").string();
+    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", whole, "--spp", "16384"}).status, 0);
+    const SpectralImage expected = read_spectral_exr(whole);
+    EXPECT_EQ(read_spectral_exr(exr).transport, expected.transport);
+    ASSERT_EQ(so_far.transport.size(), expected.transport.size());
+    EXPECT_NE(so_far.transport, expected.transport); // or it was the picture at the end
+}
+
 // A picture that cannot be written costs nothing: its checkpoint stays.
 TEST(Program, KeepsTheCheckpointOfAPictureThatCannotBeWritten) {
     const Scratch scratch;
@@ -297,9 +341,7 @@ TEST(Program, KeepsTheCheckpointOfAPictureThatCannotBeWritten) {
     const std::string exr = (scratch / "a.exr").string(), checkpoint = exr + ".checkpoint";
     std::vector<std::string> call{"render", scene_file, "-o", exr, "--spp", "16384"};
     call.insert(call.end(), {"--progress", "json"});
-    const Outcome interrupted = run_program(call, scratch.folder(), [](const std::string &err) {
-        return err.find("\"render\"") != std::string::npos;
-    });
+    const Outcome interrupted = run_program(call, scratch.folder(), once(SIGINT, "\"render\""));
     ASSERT_EQ(interrupted.status, 3) << interrupted.err;
     call.back() = "off"; // stderr is a file here
     call.push_back("--resume");
