@@ -53,8 +53,8 @@ Lights::Lights(const Scene &scene, const Plan &plan, const glm::dvec3 &centre,
                             static_cast<double>(mass.size()));
         }
     }
-    // Half in proportion, half even among those that shine: no light is forgotten, a dark one never
-    // drawn
+    // Half in proportion, half even among those that shine: every light has a share, a dark one
+    // none
     const double total = std::accumulate(given.begin(), given.end(), 0.0);
     const auto shining = static_cast<double>(
         std::count_if(given.begin(), given.end(), [](double g) { return g > 0; }));

@@ -1,5 +1,6 @@
 // What one sample adds to the transport T of a light group. The camera ray hits the path's vertex
-// x_0; at each vertex x_n the cloth draws the direction w_n of the next ray, with density p:
+// x_0; at each vertex x_n the direction w_n of the next ray is sampled from the cloth's response,
+// with density p:
 //
 //   T = L(camera ray, where it leaves the scene) + sum over n >= 0 of beta_n (S_n + M_n)
 //

@@ -92,16 +92,17 @@ Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
     return w;
 }
 
-std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const ViewTerms &view,
-                                          glm::vec2 choice, glm::vec2 direction) const {
+std::optional<LightSample> Shading::sample(const glm::vec3 &to_viewer, const ViewTerms &view,
+                                           glm::vec2 choice, glm::vec2 direction) const {
     const glm::vec3 u(direction, choice.y);
     if (specular_ && choice.x < view.specular_share) {
-        const auto drawn = specular_->sample(to_viewer, u);
-        if (!drawn)
+        const auto sampled = specular_->sample(to_viewer, u);
+        if (!sampled)
             return std::nullopt;
-        DrawnLight light{drawn->direction, {{}, view.specular_share * drawn->pdf_per_sr}};
+        LightSample light{sampled->direction, {{}, view.specular_share * sampled->pdf_per_sr}};
         Weighed &w = light.weighed;
-        add_specular(w.f_cos, drawn->weight * drawn->pdf_per_sr, drawn->weft * drawn->pdf_per_sr);
+        add_specular(w.f_cos, sampled->weight * sampled->pdf_per_sr,
+                     sampled->weft * sampled->pdf_per_sr);
         if (diffuse_) {
             w.f_cos.diffuse = diffuse_cos(light.to_light, view);
             w.pdf += (1 - view.specular_share) * (1 - transmitted_share_) *
@@ -114,7 +115,7 @@ std::optional<DrawnLight> Shading::sample(const glm::vec3 &to_viewer, const View
         return std::nullopt;
     if (choice.y < transmitted_share_)
         to_light.z = -to_light.z;
-    return DrawnLight{to_light, weigh(to_light, to_viewer, view)};
+    return LightSample{to_light, weigh(to_light, to_viewer, view)};
 }
 
 } // namespace tsuya

@@ -24,7 +24,7 @@ struct Response {
     }
 };
 
-// f cos of one direction, and the density of drawing it.
+// f cos of one direction, and the density of sampling it.
 struct Weighed {
     Response f_cos{};
     float pdf = 0; // 1/sr
@@ -35,7 +35,7 @@ struct Weighed {
     }
 };
 
-struct DrawnLight {
+struct LightSample {
     glm::vec3 to_light; // in the cloth's frame z < 0: behind it
     Weighed weighed{};
 };
@@ -66,8 +66,8 @@ class Shading {
     // to_light.z < 0: from behind
     Weighed weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
                   const ViewTerms &view) const;
-    std::optional<DrawnLight> sample(const glm::vec3 &to_viewer, const ViewTerms &view,
-                                     glm::vec2 choice, glm::vec2 direction) const;
+    std::optional<LightSample> sample(const glm::vec3 &to_viewer, const ViewTerms &view,
+                                      glm::vec2 choice, glm::vec2 direction) const;
 
   private:
     float diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) const;

@@ -15,24 +15,24 @@ Weighed Vertex::weigh(const glm::vec3 &to_light) const {
     return sum;
 }
 
-std::optional<DrawnLight> Vertex::sample(glm::vec2 part, glm::vec2 direction) const {
-    std::optional<DrawnLight> drawn = shading_.sample(to_viewer_, view_, part, direction);
-    if (!drawn)
+std::optional<LightSample> Vertex::sample(glm::vec2 part, glm::vec2 direction) const {
+    std::optional<LightSample> sampled = shading_.sample(to_viewer_, view_, part, direction);
+    if (!sampled)
         return std::nullopt;
 
     // To the side of the triangle that the cloth scatters to
-    const bool through = drawn->to_light.z < 0;
-    drawn->to_light = point_.frame.to_world(drawn->to_light);
-    if (is_above(drawn->to_light) == through)
-        drawn->to_light = mirrored(drawn->to_light);
+    const bool through = sampled->to_light.z < 0;
+    sampled->to_light = point_.frame.to_world(sampled->to_light);
+    if (is_above(sampled->to_light) == through)
+        sampled->to_light = mirrored(sampled->to_light);
 
-    // Where the cloth could have drawn the mirror image too, both count
-    const glm::vec3 other = point_.frame.to_local(mirrored(drawn->to_light));
+    // Where its mirror image could have been sampled too, both count
+    const glm::vec3 other = point_.frame.to_local(mirrored(sampled->to_light));
     if ((other.z > 0) != through)
-        drawn->weighed = weigh(drawn->to_light);
-    if (!(drawn->weighed.pdf > 0))
+        sampled->weighed = weigh(sampled->to_light);
+    if (!(sampled->weighed.pdf > 0))
         return std::nullopt;
-    return drawn;
+    return sampled;
 }
 
 glm::vec3 Vertex::ray_origin(const glm::vec3 &direction) const {

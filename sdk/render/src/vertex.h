@@ -28,7 +28,7 @@ class Vertex {
     // A direction to light, in the world. Its density is above 0.
     // \param part which part of the cloth scatters, and from which side
     // \param direction within that part
-    std::optional<DrawnLight> sample(glm::vec2 part, glm::vec2 direction) const;
+    std::optional<LightSample> sample(glm::vec2 part, glm::vec2 direction) const;
     // Where a ray of this direction starts: off the triangle, on the side to which it goes.
     glm::vec3 ray_origin(const glm::vec3 &direction) const;
 
