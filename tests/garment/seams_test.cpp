@@ -151,11 +151,10 @@ TEST(Manifold, CountsWhatItDrops) {
     m.position.emplace_back(5, 5, 5);
     m.add_face({0, 1, 1}, {-1, -1, -1}, 0);
     m.add_face({2, 3, 1, 0}, {-1, -1, -1, -1}, 0);
-    ManifoldReport report;
-    PositionRecipe recipe;
-    const PolygonMesh fixed = make_manifold(m, report, recipe);
-    EXPECT_EQ(recipe.apply(m.position), fixed.position);
-    EXPECT_EQ(fixed.face_count(), 6u);
+    const Prepared fixed = make_manifold(m);
+    const ManifoldReport &report = fixed.report.file;
+    EXPECT_EQ(fixed.positions.apply(m.position), fixed.mesh.position);
+    EXPECT_EQ(fixed.mesh.face_count(), 6u);
     EXPECT_EQ(report.degenerate_faces, 1u);
     EXPECT_EQ(report.duplicate_faces, 1u);
     EXPECT_EQ(report.isolated_vertices, 1u);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mesh/edges.h"
-#include "repair/fans.h"
+#include "mesh/face_plane.h"
 
 namespace tsuya::garment {
 namespace {
@@ -74,10 +74,9 @@ Creases find_creases(const PolygonMesh &mesh, const SubdivideOptions &options) {
         if (uv_at(mesh, a, a.low) != uv_at(mesh, b, b.low) ||
             uv_at(mesh, a, a.high) != uv_at(mesh, b, b.high))
             sharpness = options.seam_crease;
-        double area_a = 0.0, area_b = 0.0;
-        const glm::dvec3 n_a = face_normal(mesh, a.face, area_a),
-                         n_b = face_normal(mesh, b.face, area_b);
-        if (area_a > 0.0 && area_b > 0.0 && glm::dot(n_a, n_b) < std::cos(options.fold_angle))
+        const FacePlane plane_a = face_plane(mesh, a.face), plane_b = face_plane(mesh, b.face);
+        if (plane_a.area > 0.0 && plane_b.area > 0.0 &&
+            glm::dot(plane_a.normal, plane_b.normal) < std::cos(options.fold_angle))
             sharpness = std::max(sharpness, options.fold_crease);
         if (sharpness <= 0.0)
             return;

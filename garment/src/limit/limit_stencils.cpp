@@ -6,7 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "repair/fans.h"
+#include "mesh/face_plane.h"
 
 namespace tsuya::garment {
 namespace {
@@ -106,11 +106,8 @@ void LimitStencils::apply_face(std::size_t f, const PolygonMesh &mesh, const glm
         }
         out.position[v] = centre + sample.p;
         glm::dvec3 normal;
-        if (!sample.normal(normal)) {
-            double area = 0.0;
-            normal = face_normal(mesh, f, area);
-            normal = area > 0.0 ? normal : glm::dvec3(0, 0, 1);
-        }
+        if (!sample.normal(normal))
+            normal = any_normal(mesh, f);
         out.normal[v] = glm::vec3(normal);
         if (cloth_.empty())
             continue;

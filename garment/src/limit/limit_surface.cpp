@@ -7,7 +7,7 @@
 #include <opensubdiv/far/topologyDescriptor.h>
 
 #include "limit/creases.h"
-#include "mesh/edges.h"
+#include "mesh/valence.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -65,11 +65,7 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
     if (options.view && !(options.view->nearest > 0.0))
         throw Error({"distance " + std::to_string(options.view->nearest) + " is out of range",
                      "subdivide.view.nearest", "expected metres above 0"});
-    std::vector<std::uint32_t> valence(mesh.position.size(), 0);
-    for (const std::uint32_t v : mesh.corner_position)
-        if (++valence[v] >= kMaxValence)
-            throw Error({"vertex " + std::to_string(v) + " joins too many faces", "mesh",
-                         "expected fewer than " + std::to_string(kMaxValence)});
+    check_valence(mesh);
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
         if (mesh.face_size(f) >= kMaxValence)
             throw Error({"face " + std::to_string(f) + " has " + std::to_string(mesh.face_size(f)) +

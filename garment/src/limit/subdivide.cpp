@@ -6,12 +6,12 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "repair/fans.h"
 #include "limit/limit_corners.h"
 #include "limit/limit_numbering.h"
 #include "limit/limit_stencils.h"
 #include "limit/limit_surface.h"
 #include "limit/tessellation_rates.h"
+#include "mesh/face_plane.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -31,13 +31,6 @@ struct Worker {
     std::vector<std::uint32_t> vertices;
     std::size_t repaired_normals = 0;
 };
-
-/// Normal of the control face; z where that has no area.
-glm::dvec3 any_normal(const PolygonMesh &mesh, std::size_t face) {
-    double area = 0.0;
-    const glm::dvec3 n = face_normal(mesh, face, area);
-    return area > 0.0 ? n : glm::dvec3(0, 0, 1);
-}
 
 } // namespace
 

@@ -1,9 +1,23 @@
 #include "mesh/edges.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tsuya::garment {
+namespace {
+
+/// Sorts a bucket by the high vertex; sides of one edge keep their order.
+void sort_bucket(EdgeUse *first, EdgeUse *last) {
+    constexpr std::ptrdiff_t kFew = 16; // most buckets; stable_sort allocates for each
+    const auto less = [](const EdgeUse &a, const EdgeUse &b) { return a.high < b.high; };
+    if (last - first > kFew) {
+        std::stable_sort(first, last, less);
+        return;
+    }
+    for (EdgeUse *at = first; at != last; ++at)
+        std::rotate(std::upper_bound(first, at, *at, less), at, at + 1);
+}
+
+} // namespace
 
 EdgeTable::EdgeTable(const PolygonMesh &mesh) {
     // Counting sort by the low vertex, then a short sort inside each bucket.
@@ -24,36 +38,7 @@ EdgeTable::EdgeTable(const PolygonMesh &mesh) {
     std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
     for_each_side([&](const EdgeUse &use) { uses_[fill[use.low]++] = use; });
     for (std::size_t v = 0; v + 1 < start.size(); ++v)
-        std::stable_sort(uses_.begin() + start[v], uses_.begin() + start[v + 1],
-                         [](const EdgeUse &a, const EdgeUse &b) { return a.high < b.high; });
-}
-
-std::uint32_t find_set(std::vector<std::uint32_t> &parent, std::uint32_t i) {
-    while (parent[i] != i)
-        i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-void unite(std::vector<std::uint32_t> &parent, std::uint32_t a, std::uint32_t b) {
-    a = find_set(parent, a);
-    b = find_set(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
-
-std::vector<std::uint32_t> number_sets(std::vector<std::uint32_t> &parent, std::uint32_t &count) {
-    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> number(parent.size(), kNone), result(parent.size());
-    count = 0;
-    for (std::uint32_t i = 0; i < parent.size(); ++i) {
-        std::uint32_t &n = number[find_set(parent, i)];
-        if (n == kNone)
-            n = count++;
-        result[i] = n;
-    }
-    return result;
+        sort_bucket(uses_.data() + start[v], uses_.data() + start[v + 1]);
 }
 
 } // namespace tsuya::garment

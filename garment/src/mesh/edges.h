@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Edges of a polygon mesh that need not be manifold, and disjoint sets.
+/// Edges of a polygon mesh that need not be manifold.
 
 #include <cstdint>
 #include <span>
@@ -9,9 +9,6 @@
 #include "tsuya/garment/polygon_mesh.h"
 
 namespace tsuya::garment {
-
-/// The time of a vertex grows with the square of its faces, and more; cloth needs no such vertices.
-inline constexpr std::uint32_t kMaxValence = 256;
 
 /// One face's side of an edge. `corner` is where the side starts.
 struct EdgeUse {
@@ -52,12 +49,5 @@ inline std::uint32_t corner_at(const PolygonMesh &mesh, const EdgeUse &use, std:
 inline std::int32_t uv_at(const PolygonMesh &mesh, const EdgeUse &use, std::uint32_t vertex) {
     return mesh.corner_uv[corner_at(mesh, use, vertex)];
 }
-
-/// Root of the set of `i`, with path halving.
-std::uint32_t find_set(std::vector<std::uint32_t> &parent, std::uint32_t i);
-/// Unites two sets under the smaller root.
-void unite(std::vector<std::uint32_t> &parent, std::uint32_t a, std::uint32_t b);
-/// Numbers the sets 0, 1, ... in the order of their first members.
-std::vector<std::uint32_t> number_sets(std::vector<std::uint32_t> &parent, std::uint32_t &count);
 
 } // namespace tsuya::garment

@@ -2,34 +2,31 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "mesh/edges.h"
+#include "mesh/islands.h"
+#include "mesh/valence.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
 namespace {
 
-/// Collects problems and throws once there are too many.
-class Problems {
+/// Collects problems at one place and throws once there are too many.
+class MeshProblems {
   public:
-    explicit Problems(std::string where) : where_(std::move(where)) {}
+    explicit MeshProblems(std::string where) : where_(std::move(where)) {}
     void add(std::string what, std::string accepted) {
-        problems_.push_back({std::move(what), where_, std::move(accepted)});
-        if (problems_.size() == kMaxProblems)
+        problems_.add({std::move(what), where_, std::move(accepted)});
+        if (problems_.full())
             throw_if_any();
     }
-    void throw_if_any() {
-        if (!problems_.empty())
-            throw Error(std::move(problems_));
-    }
+    void throw_if_any() const { problems_.throw_if_any(); }
 
   private:
     std::string where_;
-    std::vector<Problem> problems_;
+    Problems problems_;
 };
 
-void check_lengths(const PolygonMesh &mesh, Problems &problems) {
+void check_lengths(const PolygonMesh &mesh, MeshProblems &problems) {
     const std::size_t corners = mesh.corner_position.size();
     if (mesh.face_offset.empty() || mesh.face_offset.front() != 0 ||
         mesh.face_offset.back() != corners)
@@ -52,7 +49,7 @@ void check_lengths(const PolygonMesh &mesh, Problems &problems) {
 /// Largest coordinate: squares of areas still fit into a double.
 constexpr double kLargest = 1e30;
 
-void check_numbers(const PolygonMesh &mesh, Problems &problems) {
+void check_numbers(const PolygonMesh &mesh, MeshProblems &problems) {
     for (std::size_t i = 0; i < mesh.position.size(); ++i) {
         const glm::dvec3 &p = mesh.position[i];
         if (!(glm::dot(p, p) <= kLargest * kLargest))
@@ -76,7 +73,7 @@ void PolygonMesh::add_face(const std::vector<std::uint32_t> &positions,
 }
 
 void check_indices(const PolygonMesh &mesh, const std::string &where) {
-    Problems problems(where);
+    MeshProblems problems(where);
     check_lengths(mesh, problems);
     check_numbers(mesh, problems);
     const auto face_text = [](std::size_t f) { return "face " + std::to_string(f); };
@@ -105,11 +102,9 @@ bool has_uv(const PolygonMesh &mesh, std::size_t f) {
     return true;
 }
 
-std::vector<std::uint32_t> uv_islands(const PolygonMesh &mesh, std::uint32_t &count) {
+SetNumbers find_islands(const PolygonMesh &mesh, const EdgeTable &edges) {
     // Union of faces over edges that have the same UV at both ends on both sides.
-    std::vector<std::uint32_t> parent(mesh.face_count());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const EdgeTable edges(mesh);
+    DisjointSets islands(mesh.face_count());
     edges.for_each_edge([&](std::span<const EdgeUse> uses) {
         for (std::size_t i = 1; i < uses.size(); ++i) {
             const EdgeUse &a = uses[0], &b = uses[i];
@@ -117,10 +112,15 @@ std::vector<std::uint32_t> uv_islands(const PolygonMesh &mesh, std::uint32_t &co
                                     uv_at(mesh, a, a.high) == uv_at(mesh, b, b.high) &&
                                     has_uv(mesh, a.face) == has_uv(mesh, b.face);
             if (continuous)
-                unite(parent, a.face, b.face);
+                islands.unite(a.face, b.face);
         }
     });
-    return number_sets(parent, count);
+    return islands.number();
+}
+
+UvIslands uv_islands(const PolygonMesh &mesh) {
+    SetNumbers islands = find_islands(mesh, EdgeTable(mesh));
+    return {std::move(islands.of), islands.count};
 }
 
 void share_equal_uvs(PolygonMesh &mesh) {
@@ -157,17 +157,27 @@ void share_equal_uvs(PolygonMesh &mesh) {
         }
 }
 
-void panels_from_uv_islands(PolygonMesh &mesh) {
-    std::uint32_t count = 0;
-    const std::vector<std::uint32_t> island = uv_islands(mesh, count);
-    if (count > std::numeric_limits<std::uint16_t>::max())
-        throw Error({"the mesh has " + std::to_string(count) + " UV islands", "",
+void name_islands(PolygonMesh &mesh, const SetNumbers &islands) {
+    if (islands.count > std::numeric_limits<std::uint16_t>::max())
+        throw Error({"the mesh has " + std::to_string(islands.count) + " UV islands", "",
                      "expected at most 65535 panels"});
     mesh.panel_name.clear();
-    for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t i = 0; i < islands.count; ++i)
         mesh.panel_name.push_back("island" + std::to_string(i));
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        mesh.face_panel[f] = static_cast<std::uint16_t>(island[f]);
+        mesh.face_panel[f] = static_cast<std::uint16_t>(islands.of[f]);
+}
+
+void panels_from_uv_islands(PolygonMesh &mesh) {
+    name_islands(mesh, find_islands(mesh, EdgeTable(mesh)));
+}
+
+void check_valence(const PolygonMesh &mesh) {
+    std::vector<std::uint32_t> valence(mesh.position.size(), 0);
+    for (const std::uint32_t v : mesh.corner_position)
+        if (++valence[v] >= kMaxValence)
+            throw Error({"vertex " + std::to_string(v) + " joins too many faces", "mesh",
+                         "expected fewer than " + std::to_string(kMaxValence)});
 }
 
 } // namespace tsuya::garment

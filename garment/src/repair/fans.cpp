@@ -1,12 +1,12 @@
-#include "repair/fans.h"
+// Fans of faces about vertices: how a mesh that is not manifold is taken apart.
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <set>
-#include <sstream>
 
-#include "mesh/edges.h"
+#include "mesh/disjoint_sets.h"
+#include "mesh/face_plane.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
@@ -20,9 +20,9 @@ constexpr std::size_t kMostPaired = 64;
 /// Joins sides of edges and keeps the fans as sets of corners.
 class FanBuilder {
   public:
-    explicit FanBuilder(const PolygonMesh &mesh) : mesh_(mesh), fan_(mesh.corner_position.size()) {
-        std::iota(fan_.begin(), fan_.end(), 0u);
-        EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+    FanBuilder(const PolygonMesh &mesh, const EdgeTable &edges)
+        : mesh_(mesh), fan_(mesh.corner_position.size()) {
+        edges.for_each_edge([&](std::span<const EdgeUse> uses) {
             if (uses.size() == 2 && uses[0].forward != uses[1].forward)
                 pair(uses[0], uses[1]);
             else if (uses.size() > 2)
@@ -31,12 +31,12 @@ class FanBuilder {
         pair_crowded();
     }
 
-    std::uint32_t fan_of(std::uint32_t corner) { return find_set(fan_, corner); }
+    std::uint32_t fan_of(std::uint32_t corner) { return fan_.find(corner); }
 
   private:
     void pair(const EdgeUse &a, const EdgeUse &b) {
         for (const std::uint32_t v : {a.low, a.high})
-            unite(fan_, corner_at(mesh_, a, v), corner_at(mesh_, b, v));
+            fan_.unite(corner_at(mesh_, a, v), corner_at(mesh_, b, v));
     }
 
     /// Walks along chains of crowded edges, one chain after the other, so that a layer keeps its
@@ -73,9 +73,8 @@ class FanBuilder {
         const auto same_fan = [&](std::uint32_t v) {
             return fan_of(corner_at(mesh_, a, v)) == fan_of(corner_at(mesh_, b, v));
         };
-        double area = 0.0;
         const double flatness =
-            glm::dot(face_normal(mesh_, a.face, area), face_normal(mesh_, b.face, area));
+            glm::dot(face_plane(mesh_, a.face).normal, face_plane(mesh_, b.face).normal);
         const double panels = mesh_.face_panel[a.face] == mesh_.face_panel[b.face] ? 4.0 : 0.0;
         return panels - flatness - (same_fan(a.low) || same_fan(a.high) ? 8.0 : 0.0);
     }
@@ -104,67 +103,48 @@ class FanBuilder {
     }
 
     const PolygonMesh &mesh_;
-    std::vector<std::uint32_t> fan_;
+    DisjointSets fan_;
     std::vector<std::vector<EdgeUse>> crowded_; ///< edges of more than two sides
 };
 
 } // namespace
 
-std::size_t split_fans(PolygonMesh &mesh, PositionRecipe &recipe) {
-    FanBuilder fans(mesh);
+std::size_t MeshRepair::split_fans() {
+    FanBuilder fans(mesh_, edges());
     // The fan of a vertex' first corner keeps the vertex.
-    std::vector<std::uint32_t> vertex_of_fan(mesh.corner_position.size(), kNone);
-    std::vector<bool> taken(mesh.position.size(), false);
-    const std::size_t before = mesh.position.size();
+    std::vector<std::uint32_t> vertex_of_fan(mesh_.corner_position.size(), kNone);
+    std::vector<bool> taken(mesh_.position.size(), false);
+    const std::size_t before = mesh_.position.size();
     for (std::uint32_t c = 0; c < vertex_of_fan.size(); ++c) {
         std::uint32_t &v = vertex_of_fan[fans.fan_of(c)];
-        const std::uint32_t old = mesh.corner_position[c];
+        const std::uint32_t old = mesh_.corner_position[c];
         if (v == kNone && !taken[old]) {
             v = old;
             taken[old] = true;
         } else if (v == kNone) {
-            v = static_cast<std::uint32_t>(mesh.position.size());
-            recipe.append_middle(mesh.position, old, old);
+            v = copy_vertex(old);
         }
-        mesh.corner_position[c] = v;
+        mesh_.corner_position[c] = v;
     }
-    return mesh.position.size() - before;
+    if (mesh_.position.size() > before)
+        faces_changed();
+    return mesh_.position.size() - before;
 }
 
-std::size_t detach_faces(PolygonMesh &mesh, PositionRecipe &recipe) {
+std::size_t MeshRepair::detach_faces() {
     std::set<std::uint32_t> faces;
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+    edges().for_each_edge([&](std::span<const EdgeUse> uses) {
         if (uses.size() > 2 || (uses.size() == 2 && uses[0].forward == uses[1].forward))
             for (std::size_t i = 1; i < uses.size(); ++i)
                 faces.insert(uses[i].face);
     });
+    if (faces.empty())
+        return 0;
     for (const std::uint32_t f : faces)
-        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
-            const std::uint32_t v = mesh.corner_position[c];
-            mesh.corner_position[c] = static_cast<std::uint32_t>(mesh.position.size());
-            recipe.append_middle(mesh.position, v, v);
-        }
+        for (std::uint32_t c = mesh_.face_offset[f]; c < mesh_.face_offset[f + 1]; ++c)
+            mesh_.corner_position[c] = copy_vertex(mesh_.corner_position[c]);
+    faces_changed();
     return faces.size();
-}
-
-void keep_place(FirstPlaces &places, const std::string &key, const glm::dvec3 &p) {
-    if (places.contains(key))
-        return;
-    std::ostringstream text;
-    text.precision(6);
-    text << "near (" << p.x << ", " << p.y << ", " << p.z << ")";
-    places.emplace(key, text.str());
-}
-
-glm::dvec3 face_normal(const PolygonMesh &mesh, std::size_t f, double &area) {
-    glm::dvec3 sum(0.0);
-    const glm::dvec3 origin = mesh.position[mesh.corner_position[mesh.face_offset[f]]];
-    for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
-        sum += glm::cross(mesh.position[mesh.corner_position[c]] - origin,
-                          mesh.position[mesh.corner_position[mesh.next(f, c)]] - origin);
-    const double length = glm::length(sum);
-    area = 0.5 * length;
-    return length > 0.0 ? sum / length : glm::dvec3(0.0);
 }
 
 } // namespace tsuya::garment

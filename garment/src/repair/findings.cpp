@@ -3,7 +3,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "repair/measure.h"
+#include "repair/mesh_repair.h"
 #include "tsuya/sdk/angle.h"
 
 namespace tsuya::garment {
@@ -165,13 +165,13 @@ void find_uv(const Report &r, Findings &f) {
 
 } // namespace
 
-void find_all(const PolygonMesh &mesh, Report &report) {
-    Findings findings(report);
-    find_units(report, findings);
-    find_topology(report, findings);
-    find_seams(report, findings);
-    find_uv(report, findings);
-    if (mesh.panel_name.empty())
+void MeshRepair::list_findings() {
+    Findings findings(report_);
+    find_units(report_, findings);
+    find_topology(report_, findings);
+    find_seams(report_, findings);
+    find_uv(report_, findings);
+    if (report_.panels == 0)
         findings.add(Severity::note, "no_panels", "the file names no group, object or material",
                      "UV islands stand for panels");
 }

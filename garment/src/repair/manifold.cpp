@@ -2,79 +2,14 @@
 #include <bit>
 #include <limits>
 
-#include "mesh/edges.h"
-#include "repair/fans.h"
-#include "tsuya/garment/seams.h"
+#include "mesh/face_plane.h"
+#include "mesh/stop.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-glm::dvec3 first_point(const PolygonMesh &mesh, std::size_t f) {
-    return mesh.position[mesh.corner_position[mesh.face_offset[f]]];
-}
-
-/// Drops repeated corners that follow each other, faces that keep fewer than 3 different vertices
-/// or name a vertex twice, and faces with the vertices of an earlier one.
-PolygonMesh drop_faces(const PolygonMesh &mesh, ManifoldReport &report) {
-    PolygonMesh out;
-    out.position = mesh.position;
-    out.uv = mesh.uv;
-    out.panel_name = mesh.panel_name;
-    out.corner_position.reserve(mesh.corner_position.size());
-    out.corner_uv.reserve(mesh.corner_uv.size());
-    out.face_offset.reserve(mesh.face_offset.size());
-    out.face_panel.reserve(mesh.face_panel.size());
-    std::vector<std::uint32_t> vertices, sorted;
-    std::vector<std::int32_t> uvs;
-    // Faces by a hash of their vertices, as lists, to find duplicates.
-    std::vector<std::uint32_t> head(std::bit_ceil(2 * mesh.face_count() + 1), kNone), next;
-    const auto slot = [&] {
-        std::uint64_t hash = 0;
-        for (const std::uint32_t v : sorted)
-            hash = std::rotl(hash ^ v, 23) * 0x9e3779b97f4a7c15u;
-        return static_cast<std::size_t>(hash >> 32) & (head.size() - 1);
-    };
-    const auto same_vertices = [&](std::uint32_t f) {
-        if (out.face_size(f) != sorted.size())
-            return false;
-        return std::all_of(
-            out.corner_position.begin() + out.face_offset[f],
-            out.corner_position.begin() + out.face_offset[f + 1],
-            [&](std::uint32_t v) { return std::binary_search(sorted.begin(), sorted.end(), v); });
-    };
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        vertices.clear();
-        uvs.clear();
-        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
-            if (mesh.corner_position[c] != mesh.corner_position[mesh.next(f, c)]) {
-                vertices.push_back(mesh.corner_position[c]);
-                uvs.push_back(mesh.corner_uv[c]);
-            }
-        sorted = vertices;
-        std::sort(sorted.begin(), sorted.end());
-        const bool repeats = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-        if (vertices.size() < 3 || repeats) {
-            ++report.degenerate_faces;
-            keep_place(report.first_place, "degenerate_faces", first_point(mesh, f));
-            continue;
-        }
-        std::uint32_t &first = head[slot()];
-        std::uint32_t duplicate = first;
-        while (duplicate != kNone && !same_vertices(duplicate))
-            duplicate = next[duplicate];
-        if (duplicate != kNone) {
-            ++report.duplicate_faces;
-            keep_place(report.first_place, "duplicate_faces", first_point(mesh, f));
-            continue;
-        }
-        next.push_back(first);
-        first = static_cast<std::uint32_t>(out.face_count());
-        out.add_face(vertices, uvs, mesh.face_panel[f]);
-    }
-    return out;
-}
 
 void flip_face(PolygonMesh &mesh, std::size_t f) {
     const auto first = static_cast<std::ptrdiff_t>(mesh.face_offset[f]);
@@ -83,17 +18,123 @@ void flip_face(PolygonMesh &mesh, std::size_t f) {
     std::reverse(mesh.corner_uv.begin() + first, mesh.corner_uv.begin() + last);
 }
 
+/// Faces by a hash of their vertices, as lists, to find duplicates.
+class FaceHash {
+  public:
+    explicit FaceHash(std::size_t faces) : head_(std::bit_ceil(2 * faces + 1), kNone) {
+        entries_.reserve(faces);
+    }
+
+    /// True where `same(g)` holds for a face g that was added with these vertices; else they are
+    /// added as the next face. \param sorted vertices, ascending
+    template <typename Same>
+    bool has_or_add(const std::vector<std::uint32_t> &sorted, Same &&same) {
+        std::uint64_t hash = 0;
+        for (const std::uint32_t v : sorted)
+            hash = std::rotl(hash ^ v, 23) * 0x9e3779b97f4a7c15u;
+        const auto low = static_cast<std::uint32_t>(hash);
+        std::uint32_t &first = head_[static_cast<std::size_t>(hash >> 32) & (head_.size() - 1)];
+        for (std::uint32_t g = first; g != kNone; g = entries_[g].next)
+            if (entries_[g].hash == low && same(g))
+                return true;
+        entries_.push_back({first, low});
+        first = static_cast<std::uint32_t>(entries_.size() - 1);
+        return false;
+    }
+
+  private:
+    struct Entry {
+        std::uint32_t next, hash;
+    };
+    std::vector<std::uint32_t> head_;
+    std::vector<Entry> entries_;
+};
+
+} // namespace
+
+void MeshRepair::make_manifold() {
+    if (settled_)
+        return;
+    drop_faces();
+    // Vertices that only dropped faces used are not isolated in the file, yet go as well.
+    drop_isolated_vertices();
+    orient_faces();
+    count_non_manifold_edges();
+    manifold().non_manifold_vertices += split_fans();
+    settled_ = true;
+    while (const std::size_t detached = detach_faces()) {
+        manifold().detached_faces += detached;
+        split_fans();
+        settled_ = false; // vertices that the faces left may be isolated
+    }
+}
+
+/// Drops repeated corners that follow each other, faces that keep fewer than 3 different vertices
+/// or name a vertex twice, and faces with the vertices of an earlier one. What is kept moves up.
+void MeshRepair::drop_faces() {
+    ManifoldReport &found = manifold();
+    std::vector<std::uint32_t> vertices, sorted;
+    std::vector<std::int32_t> uvs;
+    FaceHash known(mesh_.face_count());
+    const auto same_vertices = [&](std::uint32_t f) {
+        if (mesh_.face_size(f) != sorted.size())
+            return false;
+        return std::all_of(
+            mesh_.corner_position.begin() + mesh_.face_offset[f],
+            mesh_.corner_position.begin() + mesh_.face_offset[f + 1],
+            [&](std::uint32_t v) { return std::binary_search(sorted.begin(), sorted.end(), v); });
+    };
+    std::uint32_t kept = 0, corners = 0, first = 0;
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+        look_at_stop(progress_, f);
+        const std::uint32_t begin = first, end = mesh_.face_offset[f + 1];
+        first = end;
+        vertices.clear();
+        uvs.clear();
+        for (std::uint32_t c = begin; c < end; ++c)
+            if (mesh_.corner_position[c] != mesh_.corner_position[c + 1 == end ? begin : c + 1]) {
+                vertices.push_back(mesh_.corner_position[c]);
+                uvs.push_back(mesh_.corner_uv[c]);
+            }
+        const glm::dvec3 place = mesh_.position[mesh_.corner_position[begin]];
+        sorted = vertices;
+        std::sort(sorted.begin(), sorted.end());
+        const bool repeats = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+        if (vertices.size() < 3 || repeats) {
+            ++found.degenerate_faces;
+            keep_place(found.first_place, "degenerate_faces", place);
+            continue;
+        }
+        if (known.has_or_add(sorted, same_vertices)) {
+            ++found.duplicate_faces;
+            keep_place(found.first_place, "duplicate_faces", place);
+            continue;
+        }
+        std::copy(vertices.begin(), vertices.end(), mesh_.corner_position.begin() + corners);
+        std::copy(uvs.begin(), uvs.end(), mesh_.corner_uv.begin() + corners);
+        corners += static_cast<std::uint32_t>(vertices.size());
+        mesh_.face_panel[kept] = mesh_.face_panel[f];
+        mesh_.face_offset[++kept] = corners;
+    }
+    if (corners == mesh_.corner_position.size())
+        return;
+    mesh_.corner_position.resize(corners);
+    mesh_.corner_uv.resize(corners);
+    mesh_.face_panel.resize(kept);
+    mesh_.face_offset.resize(kept + 1);
+    faces_changed();
+}
+
 /// Turns faces over so that neighbours agree; of each connected set the larger area keeps its side.
-void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
-    const EdgeTable edges(mesh);
+void MeshRepair::orient_faces() {
     bool any_same = false;
-    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+    edges().for_each_edge([&](std::span<const EdgeUse> uses) {
         any_same |= uses.size() == 2 && uses[0].forward == uses[1].forward;
     });
     if (!any_same)
         return;
-    std::vector<std::vector<std::pair<std::uint32_t, bool>>> links(mesh.face_count());
-    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+    std::vector<std::vector<std::pair<std::uint32_t, bool>>> links(mesh_.face_count());
+    edges().for_each_edge([&](std::span<const EdgeUse> uses) {
         if (uses.size() != 2)
             return;
         const bool same = uses[0].forward == uses[1].forward;
@@ -101,8 +142,8 @@ void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
         links[uses[1].face].emplace_back(uses[0].face, same);
     });
     enum class Side : char { unknown, kept, flipped };
-    std::vector<Side> side(mesh.face_count(), Side::unknown);
-    for (std::uint32_t seed = 0; seed < mesh.face_count(); ++seed) {
+    std::vector<Side> side(mesh_.face_count(), Side::unknown);
+    for (std::uint32_t seed = 0; seed < mesh_.face_count(); ++seed) {
         if (side[seed] != Side::unknown)
             continue;
         std::vector<std::uint32_t> part{seed};
@@ -110,8 +151,7 @@ void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
         double kept_area = 0.0, flipped_area = 0.0;
         for (std::size_t i = 0; i < part.size(); ++i) {
             const std::uint32_t f = part[i];
-            double area = 0.0;
-            face_normal(mesh, f, area);
+            const double area = face_plane(mesh_, f).area;
             (side[f] == Side::kept ? kept_area : flipped_area) += area;
             for (const auto &[other, same] : links[f])
                 if (side[other] == Side::unknown) {
@@ -122,16 +162,17 @@ void orient_faces(PolygonMesh &mesh, ManifoldReport &report) {
         const Side turned = flipped_area > kept_area ? Side::kept : Side::flipped;
         for (const std::uint32_t f : part)
             if (side[f] == turned) {
-                flip_face(mesh, f);
-                ++report.flipped_faces;
-                keep_place(report.first_place, "flipped_faces", first_point(mesh, f));
+                flip_face(mesh_, f);
+                ++manifold().flipped_faces;
+                keep_place(manifold().first_place, "flipped_faces", first_point(f));
             }
     }
+    faces_changed();
 }
 
-void drop_isolated_vertices(PolygonMesh &mesh, ManifoldReport &report, PositionRecipe &recipe) {
-    std::vector<std::uint32_t> number(mesh.position.size(), kNone);
-    for (const std::uint32_t v : mesh.corner_position)
+void MeshRepair::drop_isolated_vertices() {
+    std::vector<std::uint32_t> number(mesh_.position.size(), kNone);
+    for (const std::uint32_t v : mesh_.corner_position)
         number[v] = 0;
     std::vector<std::uint32_t> kept;
     for (std::uint32_t v = 0; v < number.size(); ++v)
@@ -139,37 +180,27 @@ void drop_isolated_vertices(PolygonMesh &mesh, ManifoldReport &report, PositionR
             number[v] = static_cast<std::uint32_t>(kept.size());
             kept.push_back(v);
         }
-    if (kept.size() == mesh.position.size())
+    if (kept.size() == mesh_.position.size())
         return;
-    report.isolated_vertices += mesh.position.size() - kept.size();
-    recipe.keep(mesh.position, std::move(kept));
-    for (std::uint32_t &v : mesh.corner_position)
+    manifold().isolated_vertices += mesh_.position.size() - kept.size();
+    recipe_.keep(mesh_.position, std::move(kept));
+    for (std::uint32_t &v : mesh_.corner_position)
         v = number[v];
+    faces_changed();
 }
 
-} // namespace
-
-PolygonMesh make_manifold(const PolygonMesh &mesh, ManifoldReport &report, PositionRecipe &recipe) {
-    PolygonMesh out = drop_faces(mesh, report);
-    // Vertices that only dropped faces used are not isolated in the file, yet go as well.
-    drop_isolated_vertices(out, report, recipe);
-    orient_faces(out, report);
-    EdgeTable(out).for_each_edge([&](std::span<const EdgeUse> uses) {
-        const glm::dvec3 &p = out.position[uses[0].low];
+void MeshRepair::count_non_manifold_edges() {
+    ManifoldReport &found = manifold();
+    edges().for_each_edge([&](std::span<const EdgeUse> uses) {
+        const glm::dvec3 &p = mesh_.position[uses[0].low];
         if (uses.size() > 2) {
-            ++report.non_manifold_edges;
-            keep_place(report.first_place, "non_manifold_edges", p);
+            ++found.non_manifold_edges;
+            keep_place(found.first_place, "non_manifold_edges", p);
         } else if (uses.size() == 2 && uses[0].forward == uses[1].forward) {
-            ++report.unorientable_edges;
-            keep_place(report.first_place, "unorientable_edges", p);
+            ++found.unorientable_edges;
+            keep_place(found.first_place, "unorientable_edges", p);
         }
     });
-    report.non_manifold_vertices += split_fans(out, recipe);
-    while (const std::size_t detached = detach_faces(out, recipe)) {
-        report.detached_faces += detached;
-        split_fans(out, recipe);
-    }
-    return out;
 }
 
 } // namespace tsuya::garment

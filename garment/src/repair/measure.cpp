@@ -1,11 +1,11 @@
-#include "repair/measure.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "repair/fans.h"
+#include "mesh/islands.h"
+#include "mesh/stop.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
@@ -126,7 +126,9 @@ class PanelSums {
 
 } // namespace
 
-void measure_file(const PolygonMesh &mesh, Report &report) {
+void MeshRepair::measure_file() {
+    const PolygonMesh &mesh = mesh_;
+    Report &report = report_;
     report.vertices = mesh.position.size();
     report.uvs = mesh.uv.size();
     report.faces = mesh.face_count();
@@ -143,46 +145,50 @@ void measure_file(const PolygonMesh &mesh, Report &report) {
     }
 }
 
-void measure_uv(const PolygonMesh &mesh, Report &report) {
-    std::uint32_t islands = 0;
-    const std::vector<std::uint32_t> island = uv_islands(mesh, islands);
-    const auto at = [&](std::size_t f) {
-        return mesh.position[mesh.corner_position[mesh.face_offset[f]]];
-    };
-    std::vector<double> signed_area(islands, 0.0), total_area(islands, 0.0);
+void MeshRepair::measure_joined() {
+    report_.parts = count_parts(half_edges());
+    report_.openings = measure_loops(mesh_, half_edges());
+}
+
+void MeshRepair::measure_uv() {
+    const PolygonMesh &mesh = mesh_;
+    Report &report = report_;
+    const SetNumbers islands = find_islands(mesh, edges());
+    std::vector<double> signed_area(islands.count, 0.0), total_area(islands.count, 0.0);
     std::vector<std::pair<double, double>> weft, warp, angle;
     PanelSums panels(mesh);
     std::vector<double> face_sign(mesh.face_count(), 0.0);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        look_at_stop(progress_, f);
         const FaceMeasure m = measure_face(mesh, f);
         report.area += m.area;
         panels.add_face(mesh.face_panel[f], m.area);
         if (!has_uv(mesh, f)) {
             ++report.faces_without_uv;
-            keep_place(report.first_place, "faces_without_uv", at(f));
+            keep_place(report.first_place, "faces_without_uv", first_point(f));
             continue;
         }
         if (!has_uv_area(mesh, f, m)) {
             ++report.faces_without_uv_area;
-            keep_place(report.first_place, "faces_without_uv_area", at(f));
+            keep_place(report.first_place, "faces_without_uv_area", first_point(f));
             continue;
         }
         face_sign[f] = m.uv_area > 0.0 ? 1.0 : -1.0;
-        signed_area[island[f]] += face_sign[f] * m.area;
-        total_area[island[f]] += m.area;
+        signed_area[islands.of[f]] += face_sign[f] * m.area;
+        total_area[islands.of[f]] += m.area;
         weft.emplace_back(glm::length(m.p_u), m.area);
         warp.emplace_back(glm::length(m.p_v), m.area);
         angle.emplace_back(angle_between(m.p_u, m.p_v), m.area);
         panels.add_warp(mesh.face_panel[f], m.p_v, m.area);
     }
-    for (std::uint32_t i = 0; i < islands; ++i) {
+    for (std::uint32_t i = 0; i < islands.count; ++i) {
         report.uv_islands += total_area[i] > 0.0;
         report.mirrored_islands += signed_area[i] < 0.0;
     }
     for (std::size_t f = 0; f < face_sign.size(); ++f)
         if (face_sign[f] < 0.0) {
             ++report.mirrored_faces;
-            keep_place(report.first_place, "mirrored_faces", at(f));
+            keep_place(report.first_place, "mirrored_faces", first_point(f));
         }
     report.metres_per_uv_weft = percentiles(std::move(weft));
     report.metres_per_uv_warp = percentiles(std::move(warp));

@@ -1,8 +1,12 @@
-#include "repair/open_edges.h"
+// Edges that only one face has, by place, and vertices that lie on them.
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+
+#include "mesh/place_grid.h"
+#include "mesh/stop.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
@@ -12,11 +16,33 @@ namespace {
 constexpr double kInnerShare = 0.02;
 constexpr double kEndShare = 0.1;
 
+/// Sides of edges between `allowed` vertices that only one face has.
+std::vector<EdgeUse> open_edges(const EdgeTable &edges, const VertexSet &allowed) {
+    std::vector<EdgeUse> open;
+    edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+        if (uses.size() == 1 && allowed.has(uses[0].low) && allowed.has(uses[0].high))
+            open.push_back(uses[0]);
+    });
+    return open;
+}
+
+/// Their ends, ascending.
+std::vector<std::uint32_t> ends_of(const std::vector<EdgeUse> &edges) {
+    std::vector<std::uint32_t> ends;
+    for (const EdgeUse &e : edges) {
+        ends.push_back(e.low);
+        ends.push_back(e.high);
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+}
+
 /// Open edges by place.
 class OpenEdges {
   public:
-    OpenEdges(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed)
-        : mesh_(mesh), tolerance_(tolerance), edges_(open_edges(mesh, allowed)), cell_(cell_size()),
+    OpenEdges(const PolygonMesh &mesh, std::vector<EdgeUse> edges, double tolerance)
+        : mesh_(mesh), tolerance_(tolerance), edges_(std::move(edges)), cell_(cell_size()),
           grid_(bounds(mesh).lower, cell_) {
         for (std::uint32_t i = 0; i < edges_.size(); ++i) {
             // In pieces of a cell's size: the box of a long edge would hold very many cells.
@@ -79,33 +105,17 @@ class OpenEdges {
 
 } // namespace
 
-std::vector<EdgeUse> open_edges(const PolygonMesh &mesh, const VertexSet &allowed) {
-    std::vector<EdgeUse> open;
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
-        if (uses.size() == 1 && allowed.has(uses[0].low) && allowed.has(uses[0].high))
-            open.push_back(uses[0]);
-    });
-    return open;
-}
+std::size_t MeshRepair::count_open_vertices() { return ends_of(open_edges(edges(), {})).size(); }
 
-std::vector<std::uint32_t> ends_of(const std::vector<EdgeUse> &edges) {
-    std::vector<std::uint32_t> ends;
-    for (const EdgeUse &e : edges) {
-        ends.push_back(e.low);
-        ends.push_back(e.high);
-    }
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    return ends;
-}
-
-std::vector<Insertion> find_insertions(const PolygonMesh &mesh, double tolerance,
-                                       const VertexSet &allowed) {
-    const OpenEdges open(mesh, tolerance, allowed);
+std::vector<Insertion> MeshRepair::find_insertions(double tolerance, const VertexSet &allowed) {
+    const OpenEdges open(mesh_, open_edges(edges(), allowed), tolerance);
     std::vector<Insertion> insertions;
-    for (const std::uint32_t v : ends_of(open.edges()))
+    std::size_t turn = 0;
+    for (const std::uint32_t v : ends_of(open.edges())) {
+        look_at_stop(progress_, turn++);
         if (const auto insertion = open.nearest(v))
             insertions.push_back(*insertion);
+    }
     std::sort(insertions.begin(), insertions.end(), [](const Insertion &a, const Insertion &b) {
         return std::tie(a.corner, a.t, a.vertex) < std::tie(b.corner, b.t, b.vertex);
     });

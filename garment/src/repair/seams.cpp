@@ -1,11 +1,6 @@
-#include "tsuya/garment/seams.h"
-
 #include <algorithm>
 
-#include "repair/open_edges.h"
-#include "repair/sewing.h"
-#include "repair/slits.h"
-#include "repair/vertex_joiner.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
@@ -15,75 +10,70 @@ constexpr int kMaxRounds = 8;
 /// Passes over slits; closing one can leave a shorter one.
 constexpr int kMaxSlitPasses = 3;
 
-/// Joins what lies within the tolerance.
-PolygonMesh sew(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed,
-                PositionRecipe &recipe, SeamReport &report) {
-    Sewn sewn{.mesh = join_vertices(mesh, tolerance, allowed, recipe, report),
-              .origin = mesh.corner_position,
-              .next_origin = static_cast<std::uint32_t>(mesh.position.size()),
-              .triangles = true};
-    for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        sewn.triangles &= mesh.face_size(f) == 3;
-    halve_coincident_edges(sewn, recipe);
+} // namespace
+
+void MeshRepair::join_seams() {
+    SeamReport &report = report_.seams;
+    report.tolerance = options_.tolerance;
+    report.boundary_before = count_open_vertices();
+    if (options_.tolerance >= 0.0) {
+        // Positions that are equal but for rounding are equal even where the tolerance is 0.
+        constexpr double kRounding = 1e-12;
+        const Box box = bounds(mesh_);
+        const double tolerance =
+            std::max(options_.tolerance, kRounding * glm::distance(box.lower, box.upper));
+        sew(tolerance, {});
+        make_manifold();
+        const std::size_t in_slits =
+            options_.slit_width > tolerance ? close_slits(tolerance) : std::size_t{0};
+        report.unresolved = std::max(in_slits, find_insertions(tolerance, {}).size());
+    }
+    report.boundary_after = count_open_vertices();
+}
+
+void MeshRepair::sew(double tolerance, const VertexSet &allowed) {
+    SeamReport &report = report_.seams;
+    sewing_ = {.origin = mesh_.corner_position,
+               .next_origin = static_cast<std::uint32_t>(mesh_.position.size()),
+               .triangles = true};
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f)
+        sewing_.triangles &= mesh_.face_size(f) == 3;
+    join_vertices(tolerance, allowed);
+    halve_coincident_edges();
     for (int round = 0; round < kMaxRounds; ++round) {
-        std::vector<Insertion> insertions = find_insertions(sewn.mesh, tolerance, allowed);
+        std::vector<Insertion> insertions = find_insertions(tolerance, allowed);
         if (insertions.empty())
             break;
         for (Insertion &i : insertions) {
-            i.origin = sewn.next_origin++;
+            i.origin = sewing_.next_origin++;
             report.largest_gap = std::max(report.largest_gap, i.distance);
         }
         report.splits += insertions.size();
-        sewn = insert_vertices(sewn, insertions);
-        halve_coincident_edges(sewn, recipe);
+        insert_vertices(insertions);
+        halve_coincident_edges();
     }
-    return std::move(sewn.mesh);
 }
 
-/// Closes slits; returns the number of vertices in those that remain.
-std::size_t close_slits(PolygonMesh &joined, double tolerance, double width, PositionRecipe &recipe,
-                        SeamReport &report, ManifoldReport &manifold) {
+std::size_t MeshRepair::close_slits(double tolerance) {
+    SeamReport &report = report_.seams;
     for (int pass = 0;; ++pass) {
-        VertexSet slits;
-        const std::size_t found = find_slits(joined, width, slits);
-        if (found == 0)
+        Slits slits = find_slits();
+        if (slits.count == 0)
             return 0;
+        const std::vector<bool> &member = slits.vertices.member;
         if (pass == kMaxSlitPasses)
-            return static_cast<std::size_t>(
-                std::count(slits.member.begin(), slits.member.end(), true));
-        report.slits += found;
+            return static_cast<std::size_t>(std::count(member.begin(), member.end(), true));
+        report.slits += slits.count;
         // Sides that a single short edge holds apart cannot be joined: it goes first.
-        const std::size_t collapsed = collapse_short_edges(joined, tolerance, slits, recipe);
+        const std::size_t collapsed = collapse_short_edges(tolerance, slits.vertices);
         report.collapsed_edges += collapsed;
         if (collapsed > 0) {
-            joined = make_manifold(joined, manifold, recipe);
-            find_slits(joined, width, slits);
+            make_manifold();
+            slits = find_slits();
         }
-        joined = make_manifold(sew(joined, width, slits, recipe, report), manifold, recipe);
+        sew(options_.slit_width, slits.vertices);
+        make_manifold();
     }
-}
-
-} // namespace
-
-PolygonMesh join_seams(const PolygonMesh &mesh, const SeamOptions &options, SeamReport &report,
-                       ManifoldReport &manifold, PositionRecipe &recipe) {
-    report.tolerance = options.tolerance;
-    report.boundary_before = ends_of(open_edges(mesh, {})).size();
-    PolygonMesh joined = mesh;
-    if (options.tolerance >= 0.0 && mesh.face_count() > 0) {
-        // Positions that are equal but for rounding are equal even where the tolerance is 0.
-        constexpr double kRounding = 1e-12;
-        const Box box = bounds(mesh);
-        const double tolerance =
-            std::max(options.tolerance, kRounding * glm::distance(box.lower, box.upper));
-        joined = make_manifold(sew(mesh, tolerance, {}, recipe, report), manifold, recipe);
-        std::size_t in_slits = 0;
-        if (options.slit_width > tolerance)
-            in_slits = close_slits(joined, tolerance, options.slit_width, recipe, report, manifold);
-        report.unresolved = std::max(in_slits, find_insertions(joined, tolerance, {}).size());
-    }
-    report.boundary_after = ends_of(open_edges(joined, {})).size();
-    return joined;
 }
 
 } // namespace tsuya::garment

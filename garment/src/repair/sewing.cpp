@@ -1,10 +1,11 @@
-#include "repair/sewing.h"
+// Vertices are put into edges.
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "mesh/edges.h"
+#include "mesh/stop.h"
+#include "repair/mesh_repair.h"
 #include "repair/split_triangle.h"
 
 namespace tsuya::garment {
@@ -30,9 +31,10 @@ std::array<glm::dvec2, 3> flatten(const PolygonMesh &mesh, std::size_t f) {
             glm::dvec2(glm::dot(ac, ab) / length, glm::length(glm::cross(ab, ac)) / length)};
 }
 
-GrownFace grow_face(const Sewn &sewn, std::size_t f, std::span<const Insertion> insertions,
+/// \param uvs gets those of new corners
+GrownFace grow_face(const PolygonMesh &mesh, const std::vector<std::uint32_t> &origin,
+                    std::size_t f, std::span<const Insertion> insertions,
                     std::vector<glm::dvec2> &uvs) {
-    const PolygonMesh &mesh = sewn.mesh;
     GrownFace grown;
     const std::uint32_t first = mesh.face_offset[f];
     const auto corners = mesh.face_size(f) == 3 ? flatten(mesh, f) : std::array<glm::dvec2, 3>{};
@@ -42,7 +44,7 @@ GrownFace grow_face(const Sewn &sewn, std::size_t f, std::span<const Insertion> 
         grown.vertex.push_back(mesh.corner_position[c]);
         grown.uv.push_back(mesh.corner_uv[c]);
         grown.plane.push_back(a);
-        grown.origin.push_back(sewn.origin[c]);
+        grown.origin.push_back(origin[c]);
         for (const Insertion &i : insertions) {
             if (i.corner != c)
                 continue;
@@ -64,66 +66,78 @@ GrownFace grow_face(const Sewn &sewn, std::size_t f, std::span<const Insertion> 
 
 } // namespace
 
-Sewn insert_vertices(const Sewn &sewn, const std::vector<Insertion> &insertions) {
-    const PolygonMesh &mesh = sewn.mesh;
-    Sewn out{
-        .mesh = {}, .origin = {}, .next_origin = sewn.next_origin, .triangles = sewn.triangles};
-    out.mesh.position = mesh.position;
-    out.mesh.uv = mesh.uv;
-    out.mesh.panel_name = mesh.panel_name;
+void MeshRepair::insert_vertices(const std::vector<Insertion> &insertions) {
+    PolygonMesh out;
+    std::vector<std::uint32_t> origin;
     std::size_t next = 0;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+        look_at_stop(progress_, f);
         const std::size_t first = next;
-        while (next < insertions.size() && insertions[next].corner < mesh.face_offset[f + 1])
+        while (next < insertions.size() && insertions[next].corner < mesh_.face_offset[f + 1])
             ++next;
-        const GrownFace grown =
-            grow_face(sewn, f, std::span(insertions).subspan(first, next - first), out.mesh.uv);
-        if (next == first || !sewn.triangles) {
-            out.mesh.add_face(grown.vertex, grown.uv, mesh.face_panel[f]);
-            out.origin.insert(out.origin.end(), grown.origin.begin(), grown.origin.end());
+        if (next == first) {
+            const auto begin = mesh_.face_offset[f], end = mesh_.face_offset[f + 1];
+            const auto copy = [&](auto &to, const auto &from) {
+                to.insert(to.end(), from.begin() + begin, from.begin() + end);
+            };
+            copy(out.corner_position, mesh_.corner_position);
+            copy(out.corner_uv, mesh_.corner_uv);
+            copy(origin, sewing_.origin);
+            out.face_offset.push_back(static_cast<std::uint32_t>(out.corner_position.size()));
+            out.face_panel.push_back(mesh_.face_panel[f]);
+            continue;
+        }
+        const GrownFace grown = grow_face(
+            mesh_, sewing_.origin, f, std::span(insertions).subspan(first, next - first), mesh_.uv);
+        if (!sewing_.triangles) {
+            out.add_face(grown.vertex, grown.uv, mesh_.face_panel[f]);
+            origin.insert(origin.end(), grown.origin.begin(), grown.origin.end());
             continue;
         }
         for (const auto &[a, b, c] : split_triangle(grown.plane)) {
-            out.mesh.add_face({grown.vertex[a], grown.vertex[b], grown.vertex[c]},
-                              {grown.uv[a], grown.uv[b], grown.uv[c]}, mesh.face_panel[f]);
-            out.origin.insert(out.origin.end(),
-                              {grown.origin[a], grown.origin[b], grown.origin[c]});
+            out.add_face({grown.vertex[a], grown.vertex[b], grown.vertex[c]},
+                         {grown.uv[a], grown.uv[b], grown.uv[c]}, mesh_.face_panel[f]);
+            origin.insert(origin.end(), {grown.origin[a], grown.origin[b], grown.origin[c]});
         }
     }
-    return out;
+    mesh_.face_offset = std::move(out.face_offset);
+    mesh_.corner_position = std::move(out.corner_position);
+    mesh_.corner_uv = std::move(out.corner_uv);
+    mesh_.face_panel = std::move(out.face_panel);
+    sewing_.origin = std::move(origin);
+    faces_changed();
 }
 
-void halve_coincident_edges(Sewn &sewn, PositionRecipe &recipe) {
-    const PolygonMesh &mesh = sewn.mesh;
+void MeshRepair::halve_coincident_edges() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> middles;
     std::vector<Insertion> insertions;
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+    edges().for_each_edge([&](std::span<const EdgeUse> uses) {
         if (uses.size() < 3)
             return;
         const auto origin = [&](const EdgeUse &use) {
-            return std::pair(sewn.origin[corner_at(mesh, use, use.low)],
-                             sewn.origin[corner_at(mesh, use, use.high)]);
+            return std::pair(sewing_.origin[corner_at(mesh_, use, use.low)],
+                             sewing_.origin[corner_at(mesh_, use, use.high)]);
         };
         for (std::size_t i = 0; i < uses.size(); ++i)
             for (std::size_t j = i + 1; j < uses.size(); ++j) {
                 if (origin(uses[i]) != origin(uses[j]))
                     continue;
                 const auto middle =
-                    static_cast<std::uint32_t>(mesh.position.size() + middles.size());
+                    static_cast<std::uint32_t>(mesh_.position.size() + middles.size());
                 middles.emplace_back(uses[i].low, uses[i].high);
                 for (const EdgeUse &use : {uses[i], uses[j]})
-                    insertions.push_back({use.corner, 0.5, middle, 0.0, sewn.next_origin});
-                ++sewn.next_origin;
+                    insertions.push_back({use.corner, 0.5, middle, 0.0, sewing_.next_origin});
+                ++sewing_.next_origin;
             }
     });
     if (insertions.empty())
         return;
     for (const auto &[a, b] : middles)
-        recipe.append_middle(sewn.mesh.position, a, b);
+        recipe_.append_middle(mesh_.position, a, b);
     std::sort(insertions.begin(), insertions.end(),
               [](const Insertion &a, const Insertion &b) { return a.corner < b.corner; });
-    sewn = insert_vertices(sewn, insertions);
-    share_equal_uvs(sewn.mesh);
+    insert_vertices(insertions);
+    share_equal_uvs(mesh_);
 }
 
 } // namespace tsuya::garment

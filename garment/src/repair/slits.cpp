@@ -1,6 +1,6 @@
-#include "repair/slits.h"
+// Narrow gaps that are left along seams.
 
-#include "repair/topology.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
@@ -30,22 +30,19 @@ bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
 
 } // namespace
 
-std::size_t find_slits(const PolygonMesh &mesh, double width, VertexSet &slits) {
-    std::size_t count = 0;
-    const HalfEdgeMesh half_edges = make_half_edges(mesh);
-    slits.member.assign(mesh.position.size(), false);
-    for (const BoundaryRun &run : boundary_runs(half_edges)) {
+Slits MeshRepair::find_slits() {
+    Slits slits{.vertices = {std::vector<bool>(mesh_.position.size(), false)}};
+    for (const BoundaryRun &run : boundary_runs(half_edges())) {
         std::vector<glm::dvec3> loop;
         for (const auto h : run)
-            loop.push_back(
-                mesh.position[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())]);
-        if (!is_slit(loop, width))
+            loop.push_back(mesh_.position[start_of(half_edges(), h)]);
+        if (!is_slit(loop, options_.slit_width))
             continue;
-        ++count;
+        ++slits.count;
         for (const auto h : run)
-            slits.member[static_cast<std::size_t>(half_edges.from_vertex_handle(h).idx())] = true;
+            slits.vertices.member[start_of(half_edges(), h)] = true;
     }
-    return count;
+    return slits;
 }
 
 } // namespace tsuya::garment

@@ -43,10 +43,15 @@ void check_indices(const PolygonMesh &mesh, const std::string &where);
 /// True if all corners of face `f` have a UV.
 bool has_uv(const PolygonMesh &mesh, std::size_t f);
 
-/// The island of each face: faces are of one island if they are joined by edges whose UV indices
-/// agree on both sides. Faces without UV are islands of their own, one for each connected set.
-/// \param count number of islands
-std::vector<std::uint32_t> uv_islands(const PolygonMesh &mesh, std::uint32_t &count);
+/// The UV island of each face.
+struct UvIslands {
+    std::vector<std::uint32_t> of_face{};
+    std::uint32_t count = 0;
+};
+
+/// Faces are of one island if they are joined by edges whose UV indices agree on both sides. Faces
+/// without UV are islands of their own, one for each connected set.
+UvIslands uv_islands(const PolygonMesh &mesh);
 
 /// Gives corners of one vertex and panel whose UVs have exactly equal values the same UV index, so
 /// that files with one UV a corner are continuous.

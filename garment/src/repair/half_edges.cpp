@@ -4,30 +4,24 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
-#include "repair/topology.h"
+#include "repair/half_edges.h"
 
 #include <algorithm>
 
+#include "mesh/stop.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
-namespace {
 
-glm::dvec3 point_of(const HalfEdgeMesh &mesh, HalfEdgeMesh::VertexHandle v) {
-    const auto &p = mesh.point(v);
-    return {p[0], p[1], p[2]};
-}
-
-} // namespace
-
-HalfEdgeMesh make_half_edges(const PolygonMesh &mesh) {
+HalfEdgeMesh make_half_edges(const PolygonMesh &mesh, const Progress &progress) {
     HalfEdgeMesh result;
     result.reserve(mesh.position.size(), mesh.corner_position.size() / 2 + mesh.position.size(),
                    mesh.face_count());
-    for (const glm::dvec3 &p : mesh.position)
-        result.add_vertex({p.x, p.y, p.z});
+    for (std::size_t v = 0; v < mesh.position.size(); ++v)
+        result.new_vertex();
     std::vector<HalfEdgeMesh::VertexHandle> face;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        look_at_stop(progress, f);
         face.clear();
         for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
             face.emplace_back(static_cast<int>(mesh.corner_position[c]));
@@ -38,15 +32,15 @@ HalfEdgeMesh make_half_edges(const PolygonMesh &mesh) {
     return result;
 }
 
-std::vector<BoundaryRun> boundary_runs(const HalfEdgeMesh &mesh) {
+std::vector<BoundaryRun> boundary_runs(const HalfEdgeMesh &half_edges) {
     std::vector<BoundaryRun> runs;
-    std::vector<bool> seen(mesh.n_halfedges(), false);
-    for (const auto start : mesh.halfedges()) {
-        if (!mesh.is_boundary(start) || seen[static_cast<std::size_t>(start.idx())])
+    std::vector<bool> seen(half_edges.n_halfedges(), false);
+    for (const auto start : half_edges.halfedges()) {
+        if (!half_edges.is_boundary(start) || seen[static_cast<std::size_t>(start.idx())])
             continue;
         BoundaryRun run;
         for (HalfEdgeMesh::HalfedgeHandle h = start; !seen[static_cast<std::size_t>(h.idx())];
-             h = mesh.next_halfedge_handle(h)) {
+             h = half_edges.next_halfedge_handle(h)) {
             seen[static_cast<std::size_t>(h.idx())] = true;
             run.push_back(h);
         }
@@ -55,13 +49,18 @@ std::vector<BoundaryRun> boundary_runs(const HalfEdgeMesh &mesh) {
     return runs;
 }
 
-std::vector<BoundaryLoop> measure_loops(const HalfEdgeMesh &mesh) {
+std::uint32_t start_of(const HalfEdgeMesh &half_edges, HalfEdgeMesh::HalfedgeHandle h) {
+    return static_cast<std::uint32_t>(half_edges.from_vertex_handle(h).idx());
+}
+
+std::vector<BoundaryLoop> measure_loops(const PolygonMesh &mesh, const HalfEdgeMesh &half_edges) {
     std::vector<BoundaryLoop> loops;
-    for (const BoundaryRun &run : boundary_runs(mesh)) {
+    for (const BoundaryRun &run : boundary_runs(half_edges)) {
         BoundaryLoop loop{.edges = run.size()};
-        for (const auto h : run) {
-            const glm::dvec3 a = point_of(mesh, mesh.from_vertex_handle(h));
-            loop.length += glm::distance(a, point_of(mesh, mesh.to_vertex_handle(h)));
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            const glm::dvec3 &a = mesh.position[start_of(half_edges, run[i])];
+            const glm::dvec3 &b = mesh.position[start_of(half_edges, run[(i + 1) % run.size()])];
+            loop.length += glm::distance(a, b);
             loop.centre += a / static_cast<double>(run.size());
         }
         loops.push_back(loop);
@@ -72,11 +71,11 @@ std::vector<BoundaryLoop> measure_loops(const HalfEdgeMesh &mesh) {
     return loops;
 }
 
-std::size_t count_parts(const HalfEdgeMesh &mesh) {
+std::size_t count_parts(const HalfEdgeMesh &half_edges) {
     std::size_t parts = 0;
-    std::vector<bool> seen(mesh.n_faces(), false);
+    std::vector<bool> seen(half_edges.n_faces(), false);
     std::vector<HalfEdgeMesh::FaceHandle> open;
-    for (const auto seed : mesh.faces()) {
+    for (const auto seed : half_edges.faces()) {
         if (seen[static_cast<std::size_t>(seed.idx())])
             continue;
         ++parts;
@@ -85,7 +84,7 @@ std::size_t count_parts(const HalfEdgeMesh &mesh) {
         while (!open.empty()) {
             const auto face = open.back();
             open.pop_back();
-            for (const auto other : mesh.ff_range(face))
+            for (const auto other : half_edges.ff_range(face))
                 if (!seen[static_cast<std::size_t>(other.idx())]) {
                     seen[static_cast<std::size_t>(other.idx())] = true;
                     open.push_back(other);

@@ -1,12 +1,13 @@
-#include "repair/vertex_joiner.h"
+// Boundary vertices that lie at one place become one vertex.
 
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
-#include "mesh/edges.h"
+#include "mesh/disjoint_sets.h"
 #include "mesh/place_grid.h"
-#include "repair/topology.h"
+#include "mesh/stop.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
@@ -26,30 +27,34 @@ struct Pair {
 /// Clusters of boundary vertices that become one vertex.
 class VertexJoiner {
   public:
-    VertexJoiner(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed)
-        : mesh_(mesh), tolerance_(tolerance), parent_(mesh.position.size()),
+    VertexJoiner(const PolygonMesh &mesh, const HalfEdgeMesh &half_edges, double tolerance,
+                 const VertexSet &allowed)
+        : mesh_(mesh), tolerance_(tolerance), cluster_(mesh.position.size()),
           members_(mesh.position.size()), faces_(mesh.position.size()) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
-        const HalfEdgeMesh half_edges = make_half_edges(mesh);
         for (const auto v : half_edges.vertices())
             if (half_edges.is_boundary(v) && allowed.has(static_cast<std::uint32_t>(v.idx())))
                 add_boundary_vertex(half_edges, v);
     }
 
-    void join(SeamReport &report) {
-        for (const Pair &p : near_pairs())
-            join_pair(p.a, p.b, report);
+    /// Joins what is near. Throws Interrupted.
+    void join(const Progress &progress) {
+        std::size_t turn = 0;
+        for (const Pair &p : near_pairs(progress)) {
+            look_at_stop(progress, turn++);
+            join_pair(p.a, p.b);
+        }
     }
 
-    /// The mesh with every cluster at the mean of its members.
-    PolygonMesh result(PositionRecipe &recipe) {
-        PolygonMesh out = mesh_;
+    std::size_t joined() const { return joined_; }
+    double largest_gap() const { return largest_gap_; }
+    /// The vertex that stands for the cluster of `v`.
+    std::uint32_t vertex_of(std::uint32_t v) { return cluster_.find(v); }
+
+    /// Calls `visit(vertex, members)` for each cluster of more than one.
+    template <typename Visit> void for_each_cluster(Visit &&visit) {
         for (const std::uint32_t v : boundary_)
-            if (find_set(parent_, v) == v && members_[v].size() > 1)
-                recipe.mean(out.position, v, members_[v]);
-        for (std::uint32_t &v : out.corner_position)
-            v = find_set(parent_, v);
-        return out;
+            if (cluster_.find(v) == v && members_[v].size() > 1)
+                visit(v, members_[v]);
     }
 
   private:
@@ -69,12 +74,14 @@ class VertexJoiner {
         widest_reach_ = std::max(widest_reach_, reach_[v]);
     }
 
-    std::vector<Pair> near_pairs() const {
+    std::vector<Pair> near_pairs(const Progress &progress) const {
         std::vector<Pair> pairs, own;
         PlaceGrid grid(bounds(mesh_).lower, std::max(2.0 * widest_reach_, 1e-300));
         for (const std::uint32_t v : boundary_)
             grid.insert(v, mesh_.position[v] - widest_reach_, mesh_.position[v] + widest_reach_);
+        std::size_t turn = 0;
         for (const std::uint32_t a : boundary_) {
+            look_at_stop(progress, turn++);
             // The items of a cell are in ascending order.
             const std::vector<std::uint32_t> &near = grid.at(mesh_.position[a]);
             auto it = std::upper_bound(near.begin(), near.end(), a);
@@ -94,9 +101,9 @@ class VertexJoiner {
         return pairs;
     }
 
-    void join_pair(std::uint32_t a, std::uint32_t b, SeamReport &report) {
-        a = find_set(parent_, a);
-        b = find_set(parent_, b);
+    void join_pair(std::uint32_t a, std::uint32_t b) {
+        a = cluster_.find(a);
+        b = cluster_.find(b);
         if (a == b || members_[a].size() + members_[b].size() > kMostMembers)
             return;
         double widest = 0.0;
@@ -110,16 +117,17 @@ class VertexJoiner {
                 return;
         if (b < a)
             std::swap(a, b);
-        parent_[b] = a;
+        cluster_.unite(a, b);
         members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
         faces_[a].insert(faces_[a].end(), faces_[b].begin(), faces_[b].end());
-        ++report.joined;
-        report.largest_gap = std::max(report.largest_gap, widest);
+        ++joined_;
+        largest_gap_ = std::max(largest_gap_, widest);
     }
 
     const PolygonMesh &mesh_;
-    double tolerance_, widest_reach_ = 0.0;
-    std::vector<std::uint32_t> parent_;
+    double tolerance_, widest_reach_ = 0.0, largest_gap_ = 0.0;
+    std::size_t joined_ = 0;
+    DisjointSets cluster_;
     std::vector<std::vector<std::uint32_t>> members_, faces_;
     std::vector<std::uint32_t> boundary_;
     std::vector<double> reach_; ///< how far a vertex may be joined
@@ -127,41 +135,42 @@ class VertexJoiner {
 
 } // namespace
 
-Box bounds(const PolygonMesh &mesh) {
-    Box box;
-    for (const glm::dvec3 &p : mesh.position) {
-        box.lower = glm::min(box.lower, p);
-        box.upper = glm::max(box.upper, p);
-    }
-    return box;
+void MeshRepair::join_vertices(double tolerance, const VertexSet &allowed) {
+    VertexJoiner joiner(mesh_, half_edges(), tolerance, allowed);
+    joiner.join(progress_);
+    if (joiner.joined() == 0)
+        return;
+    report_.seams.joined += joiner.joined();
+    report_.seams.largest_gap = std::max(report_.seams.largest_gap, joiner.largest_gap());
+    joiner.for_each_cluster([&](std::uint32_t v, const std::vector<std::uint32_t> &members) {
+        recipe_.mean(mesh_.position, v, members);
+    });
+    for (std::uint32_t &v : mesh_.corner_position)
+        v = joiner.vertex_of(v);
+    faces_changed();
 }
 
-PolygonMesh join_vertices(const PolygonMesh &mesh, double tolerance, const VertexSet &allowed,
-                          PositionRecipe &recipe, SeamReport &report) {
-    VertexJoiner joiner(mesh, tolerance, allowed);
-    joiner.join(report);
-    return joiner.result(recipe);
-}
-
-std::size_t collapse_short_edges(PolygonMesh &mesh, double tolerance, const VertexSet &allowed,
-                                 PositionRecipe &recipe) {
+std::size_t MeshRepair::collapse_short_edges(double tolerance, const VertexSet &allowed) {
     // Every vertex takes part in one collapse at most, so that none moves far.
-    std::vector<std::uint32_t> into(mesh.position.size());
+    std::vector<std::uint32_t> into(mesh_.position.size());
     std::iota(into.begin(), into.end(), 0u);
-    std::vector<bool> used(mesh.position.size(), false);
+    std::vector<bool> used(mesh_.position.size(), false);
     std::size_t count = 0;
-    EdgeTable(mesh).for_each_edge([&](std::span<const EdgeUse> uses) {
+    edges().for_each_edge([&](std::span<const EdgeUse> uses) {
         const std::uint32_t a = uses[0].low, b = uses[0].high;
         if (!allowed.has(a) || !allowed.has(b) || used[a] || used[b] ||
-            glm::distance(mesh.position[a], mesh.position[b]) > tolerance)
+            glm::distance(mesh_.position[a], mesh_.position[b]) > tolerance)
             return;
         used[a] = used[b] = true;
         into[b] = a;
-        recipe.mean(mesh.position, a, {a, b});
+        recipe_.mean(mesh_.position, a, {a, b});
         ++count;
     });
-    for (std::uint32_t &v : mesh.corner_position)
+    if (count == 0)
+        return 0;
+    for (std::uint32_t &v : mesh_.corner_position)
         v = into[v];
+    faces_changed();
     return count;
 }
 

@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// From the mesh of a file to one that can be subdivided.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/edges.h"
+#include "repair/half_edges.h"
+#include "repair/insertion.h"
+#include "repair/vertex_set.h"
+#include "tsuya/garment/check.h"
+#include "tsuya/sdk/progress.h"
+
+namespace tsuya::garment {
+
+/// A mesh under repair, with what was found and how its positions follow from those of the file.
+/// Member functions are the steps, listed in the order in which they run. Edges and half-edges are
+/// built when a step first asks for them and stand until a step changes the faces: once for a mesh
+/// that needs no repair.
+class MeshRepair {
+  public:
+    /// \param metres a mesh with valid indices, positions in metres
+    MeshRepair(PolygonMesh metres, const SeamOptions &options, Progress progress)
+        : mesh_(std::move(metres)), options_(options), progress_(std::move(progress)) {}
+
+    /// All steps.
+    Prepared run();
+    /// `make_manifold` alone.
+    Prepared run_make_manifold();
+
+  private:
+    // The mesh as the file has it (measure.cpp).
+    void measure_file();
+
+    // What half-edges need; after the file, and wherever sewing changed the faces (manifold.cpp,
+    // fans.cpp).
+    void make_manifold();
+    void drop_faces();
+    void drop_isolated_vertices();
+    void orient_faces();
+    void count_non_manifold_edges();
+    /// Joins the sides of each edge in pairs of opposite directions and gives each fan of faces
+    /// about a vertex that follows from it a vertex of its own. Where more than two faces meet in
+    /// an edge (the layers of a pleat, a pocket), sides that are neighbours around an end of the
+    /// edge are paired first, then sides of different panels, then the flattest; what is left over
+    /// stays open. Returns the number of new vertices.
+    std::size_t split_fans();
+    /// Gives faces whose edges are still not manifold vertices of their own. Returns their number.
+    std::size_t detach_faces();
+
+    // The panels by themselves (mesh_repair.cpp).
+    void name_panels();
+    void measure_panels();
+
+    // The garment: panels joined along their seams (seams.cpp, join_vertices.cpp, sewing.cpp,
+    // open_edges.cpp, slits.cpp).
+    void join_seams();
+    /// Joins what lies within the tolerance.
+    void sew(double tolerance, const VertexSet &allowed);
+    /// Joins boundary vertices that lie within the tolerance, the nearest pairs first, at their
+    /// mean; never two of one face.
+    void join_vertices(double tolerance, const VertexSet &allowed);
+    /// Where joining laid an edge inside a panel onto another edge (a fold one edge deep), the edge
+    /// gets a vertex in its middle, so that the two stay different.
+    void halve_coincident_edges();
+    /// Open vertices that lie on an open edge which they do not touch, each with the nearest such
+    /// edge, sorted by corner and place.
+    std::vector<Insertion> find_insertions(double tolerance, const VertexSet &allowed);
+    /// Puts vertices into edges: triangles become more triangles, other faces get corners.
+    /// \param insertions sorted by corner, then t
+    void insert_vertices(const std::vector<Insertion> &insertions);
+    /// Returns the number of vertices in slits that remain.
+    std::size_t close_slits(double tolerance);
+    /// Boundary loops that are nowhere wider than the slit width.
+    Slits find_slits();
+    /// Joins the ends of edges between `allowed` vertices that are no longer than the tolerance;
+    /// their triangles are left without area. Returns the number of edges.
+    std::size_t collapse_short_edges(double tolerance, const VertexSet &allowed);
+    std::size_t count_open_vertices();
+
+    // The result (measure.cpp, findings.cpp).
+    void measure_joined();
+    void measure_uv();
+    void list_findings();
+
+    const EdgeTable &edges();
+    /// Of a manifold mesh.
+    const HalfEdgeMesh &half_edges();
+    void faces_changed();
+    /// Appends a copy of a vertex. Returns its number.
+    std::uint32_t copy_vertex(std::uint32_t vertex);
+    /// Keeps the place of the first finding of a key.
+    static void keep_place(FirstPlaces &places, const std::string &key, const glm::dvec3 &p);
+    glm::dvec3 first_point(std::size_t face) const;
+    ManifoldReport &manifold() { return joining_ ? report_.joined : report_.file; }
+
+    PolygonMesh mesh_;
+    Report report_{};
+    PositionRecipe recipe_{};
+    SeamOptions options_;
+    Progress progress_;
+    bool joining_ = false; ///< findings about the topology belong to the joined mesh
+    bool settled_ = false; ///< make_manifold would find nothing to do
+    Sewing sewing_{};
+    std::optional<EdgeTable> edges_{};
+    std::optional<HalfEdgeMesh> half_edges_{};
+};
+
+} // namespace tsuya::garment
