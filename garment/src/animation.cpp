@@ -29,12 +29,12 @@ void check_same_faces(const PolygonMesh &first, const PolygonMesh &other,
 
 GarmentFrames read_frames(const std::filesystem::path &first,
                           const std::vector<std::filesystem::path> &further,
-                          bool with_morph_targets) {
-    GarmentFrames frames{.first = read_mesh(first)};
+                          bool with_morph_targets, const Progress &progress) {
+    GarmentFrames frames{.first = read_mesh(first, progress)};
     if (with_morph_targets)
         frames.further = frames.first.morph_targets;
     for (const std::filesystem::path &file : further) {
-        PolygonMesh mesh = read_mesh(file).mesh;
+        PolygonMesh mesh = read_mesh(file, progress).mesh;
         check_same_faces(frames.first.mesh, mesh, first.string(), file.string());
         frames.further.push_back(std::move(mesh.position));
     }
@@ -49,16 +49,16 @@ struct AnimatedGarment::State {
 };
 
 AnimatedGarment::AnimatedGarment(const MeshFile &file, const Options &options,
-                                 const std::string &where) {
+                                 const std::string &where, const Progress &progress) {
     Options with_hints = options;
     const std::vector<Finding> findings = use_hints(file.hints, with_hints.frames);
     state_ =
         std::make_unique<State>(State{options.metres_per_unit, where, file.mesh.position.size(),
-                                      load_steps(file.mesh, with_hints, where, {})});
+                                      load_steps(file.mesh, with_hints, where, progress)});
     LoadedGarment &garment = state_->steps.garment;
     garment.hints = file.hints;
     garment.report.findings.insert(garment.report.findings.end(), findings.begin(), findings.end());
-    state_->steps.subdivider.expect_frames();
+    state_->steps.subdivider.expect_frames(progress);
 }
 
 AnimatedGarment::~AnimatedGarment() = default;

@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "load_steps.h"
-#include "tsuya/garment/check.h"
+#include "repair/mesh_repair.h"
 #include "tsuya/garment/mesh_file.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
 namespace {
-
-void stop_here(const Progress &progress) {
-    if (progress.stopped())
-        throw Interrupted("stopped while reading a garment");
-}
 
 void check_options(const Options &options, const std::string &where) {
     if (!(options.metres_per_unit > 0.0) || !std::isfinite(options.metres_per_unit))
@@ -56,25 +50,19 @@ void find_repairs(Report &report) {
 }
 
 void refuse_warnings(const Report &report, const std::string &where) {
-    std::vector<Problem> problems;
+    Problems problems;
     for (const Finding &f : report.findings)
-        if (f.severity == Severity::warning && problems.size() < kMaxProblems)
-            problems.push_back({f.what, where, "strict: " + f.key});
-    if (!problems.empty())
-        throw Error(std::move(problems));
+        problems.need(f.severity != Severity::warning, f.what, where, "strict: " + f.key);
+    problems.throw_if_any();
 }
 
-/// Runs `work`; errors that name the mesh alone get the name of the file in front.
-template <typename Work> auto naming(const std::string &where, Work &&work) {
-    try {
-        return work();
-    } catch (const Error &error) {
-        std::vector<Problem> problems = error.problems();
-        for (Problem &p : problems)
-            if (!p.where.starts_with(where))
-                p.where = p.where.empty() || p.where == "mesh" ? where : where + ": " + p.where;
-        throw Error(std::move(problems));
-    }
+/// An error about a mesh, named `mesh` where it has no other place, at the place of its file.
+Error placed(const Error &error, const std::string &where) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem &p : problems)
+        if (p.where == "mesh")
+            p.where = where;
+    return Error(std::move(problems)).within(where);
 }
 
 /// Turns the grain of a panel to the threads that its material states, unless the caller did.
@@ -117,46 +105,56 @@ std::vector<Finding> use_hints(const std::vector<FabricHint> &hints, FrameOption
     return findings;
 }
 
+namespace {
+
+LoadSteps run_steps(const PolygonMesh &mesh, const Options &options, const std::string &where,
+                    const Progress &progress) {
+    check_indices(mesh, where);
+    PolygonMesh metres = mesh;
+    for (glm::dvec3 &p : metres.position)
+        p *= options.metres_per_unit;
+    Prepared prepared =
+        MeshRepair(std::move(metres), options.seams, options.want_frames, progress).run();
+    if (options.want_frames) {
+        prepared.report.metres_per_uv = choose_uv_scale(options, prepared.report);
+    } else {
+        prepared.mesh.uv.clear();
+        std::fill(prepared.mesh.corner_uv.begin(), prepared.mesh.corner_uv.end(), -1);
+    }
+    LoadSteps steps{.subdivider = Subdivider(std::move(prepared.mesh), options.subdivide, progress),
+                    .recipe = std::move(prepared.positions),
+                    .frames = options.frames};
+    steps.frames.metres_per_uv = prepared.report.metres_per_uv;
+    if (!options.want_frames)
+        steps.frames.invented_grain.reset();
+    LimitMesh limit = steps.subdivider.evaluate(progress);
+    const std::size_t repaired_normals = limit.repaired_normals;
+    FrameReport frame_report;
+    LoadedGarment &out = steps.garment;
+    out.surface = add_frames(std::move(limit), steps.frames, frame_report, where, progress);
+    out.report = std::move(prepared.report);
+    out.report.limit_points = out.surface.position.size();
+    out.report.limit_triangles = out.surface.triangle.size();
+    out.report.repaired_normals = repaired_normals;
+    out.report.repaired_frames = frame_report.repaired;
+    out.report.repaired_area_share = frame_report.repaired_area_share;
+    find_repairs(out.report);
+    if (options.strict)
+        refuse_warnings(out.report, where);
+    check_surface(out.surface, where);
+    return steps;
+}
+
+} // namespace
+
 LoadSteps load_steps(const PolygonMesh &mesh, const Options &options, const std::string &where,
                      const Progress &progress) {
     check_options(options, where);
-    return naming(where, [&] {
-        check_indices(mesh, where);
-        PolygonMesh metres = mesh;
-        for (glm::dvec3 &p : metres.position)
-            p *= options.metres_per_unit;
-        stop_here(progress);
-        progress("garment: join seams", 0.0);
-        Prepared prepared = prepare(metres, options.seams);
-        stop_here(progress);
-        prepared.report.metres_per_uv = choose_uv_scale(options, prepared.report);
-        if (!options.want_frames) {
-            prepared.mesh.uv.clear();
-            std::fill(prepared.mesh.corner_uv.begin(), prepared.mesh.corner_uv.end(), -1);
-        }
-        LoadSteps steps{.subdivider = Subdivider(std::move(prepared.mesh), options.subdivide),
-                        .recipe = std::move(prepared.positions),
-                        .frames = options.frames};
-        steps.frames.metres_per_uv = prepared.report.metres_per_uv;
-        if (!options.want_frames)
-            steps.frames.invented_grain.reset();
-        LimitMesh limit = steps.subdivider.evaluate(progress);
-        const std::size_t repaired_normals = limit.repaired_normals;
-        FrameReport frame_report;
-        LoadedGarment &out = steps.garment;
-        out.surface = add_frames(std::move(limit), steps.frames, frame_report, where);
-        out.report = std::move(prepared.report);
-        out.report.limit_points = out.surface.position.size();
-        out.report.limit_triangles = out.surface.triangle.size();
-        out.report.repaired_normals = repaired_normals;
-        out.report.repaired_frames = frame_report.repaired;
-        out.report.repaired_area_share = frame_report.repaired_area_share;
-        find_repairs(out.report);
-        if (options.strict)
-            refuse_warnings(out.report, where);
-        check_surface(out.surface, where);
-        return steps;
-    });
+    try {
+        return run_steps(mesh, options, where, progress);
+    } catch (const Error &error) {
+        throw placed(error, where);
+    }
 }
 
 LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
@@ -176,8 +174,7 @@ LoadedGarment load(const MeshFile &file, const Options &options, const std::stri
 
 LoadedGarment load(const std::filesystem::path &path, const Options &options,
                    const Progress &progress) {
-    progress("garment: read", 0.0);
-    return load(read_mesh(path), options, path.string(), progress);
+    return load(read_mesh(path, progress), options, path.string(), progress);
 }
 
 } // namespace tsuya::garment

@@ -12,7 +12,7 @@ namespace {
 
 template <typename Parse> std::string place(Parse &&parse, const std::string &text) {
     try {
-        parse(text, "m");
+        parse(text, "m", {});
     } catch (const Error &error) {
         return error.problems().at(0).where;
     }

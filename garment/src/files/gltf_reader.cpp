@@ -9,6 +9,7 @@
 
 #include "files/gltf_document.h"
 #include "files/gltf_hints.h"
+#include "mesh/stop.h"
 #include "tsuya/garment/gltf.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -191,8 +192,10 @@ std::vector<std::uint32_t> weld(const Part &part) {
 
 class GltfReader {
   public:
-    GltfReader(const tinygltf::Model &model, std::size_t bytes, const std::string &name)
-        : model_(model), name_(name), room_(kFreeCorners + kCornersPerByte * bytes) {
+    GltfReader(const tinygltf::Model &model, std::size_t bytes, const std::string &name,
+               const Progress &progress)
+        : model_(model), name_(name), progress_(progress),
+          room_(kFreeCorners + kCornersPerByte * bytes) {
         for (const tinygltf::Buffer &buffer : model.buffers)
             room_ += kCornersPerByte * buffer.data.size();
     }
@@ -254,6 +257,7 @@ class GltfReader {
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const tinygltf::Primitive &primitive = mesh.primitives[i];
             const std::string place = where + ": primitive " + std::to_string(i);
+            look_at_stop(progress_);
             std::string name = !node.name.empty() ? node.name : mesh.name;
             if (mesh.primitives.size() > 1)
                 name += "/" + std::to_string(i);
@@ -309,6 +313,7 @@ class GltfReader {
         mesh.uv.insert(mesh.uv.end(), part.uv.begin(), part.uv.end());
         const bool mirrored = glm::determinant(glm::dmat3(world)) < 0.0;
         for (std::size_t c = 0; c < part.corner.size(); c += 3) {
+            look_at_stop(progress_, c / 3);
             for (const std::size_t k : {c, c + (mirrored ? 2 : 1), c + (mirrored ? 1 : 2)}) {
                 const std::uint32_t v = part.corner[k];
                 mesh.corner_position.push_back(number[first[v]]);
@@ -334,6 +339,7 @@ class GltfReader {
 
     const tinygltf::Model &model_;
     std::string name_;
+    const Progress &progress_;
     std::size_t room_; ///< corners that may still be added
     MeshFile out_;
     std::map<std::string, int> uses_; ///< of panel names
@@ -342,16 +348,16 @@ class GltfReader {
 } // namespace
 
 MeshFile parse_gltf(std::string_view bytes, const std::string &name,
-                    const std::filesystem::path &folder) {
+                    const std::filesystem::path &folder, const Progress &progress) {
     const tinygltf::Model model = parse_gltf_document(bytes, name, folder);
-    MeshFile file = GltfReader(model, bytes.size(), name).read();
+    MeshFile file = GltfReader(model, bytes.size(), name, progress).read();
     share_equal_uvs(file.mesh);
     return file;
 }
 
-MeshFile read_gltf(const std::filesystem::path &path) {
+MeshFile read_gltf(const std::filesystem::path &path, const Progress &progress) {
     const auto folder = path.parent_path();
-    return parse_gltf(read_file(path), path.string(), folder.empty() ? "." : folder);
+    return parse_gltf(read_file(path), path.string(), folder.empty() ? "." : folder, progress);
 }
 
 } // namespace tsuya::garment

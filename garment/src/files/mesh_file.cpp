@@ -4,6 +4,7 @@
 #include <cctype>
 #include <numbers>
 
+#include "mesh/stop.h"
 #include "tsuya/garment/gltf.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/garment/ply.h"
@@ -18,18 +19,19 @@ const std::vector<std::string> &mesh_extensions() {
     return extensions;
 }
 
-MeshFile read_mesh(const std::filesystem::path &path) {
+MeshFile read_mesh(const std::filesystem::path &path, const Progress &progress) {
+    begin_stage(progress, "garment: read");
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".obj")
-        return {.mesh = read_obj(path)};
+        return {.mesh = read_obj(path, progress)};
     if (extension == ".gltf" || extension == ".glb")
-        return read_gltf(path);
+        return read_gltf(path, progress);
     if (extension == ".ply")
-        return {.mesh = read_ply(path)};
+        return {.mesh = read_ply(path, progress)};
     if (extension == ".off")
-        return {.mesh = read_off(path)};
+        return {.mesh = read_off(path, progress)};
     throw Error({"'" + extension + "' is not a mesh format that is read", path.string(),
                  accepted_names(extension, mesh_extensions())});
 }

@@ -4,6 +4,7 @@
 
 #include "files/text_blocks.h"
 #include "files/text_cursor.h"
+#include "mesh/stop.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/sdk/error.h"
 
@@ -43,9 +44,8 @@ class ObjParser {
     PolygonMesh finish() {
         check_forward_indices();
         if (problems_.empty() && mesh_.face_count() == 0)
-            problems_.push_back({"the file has no face", name_, "expected lines such as f 1 2 3"});
-        if (!problems_.empty())
-            throw Error(std::move(problems_));
+            problems_.add({"the file has no face", name_, "expected lines such as f 1 2 3"});
+        problems_.throw_if_any();
         choose_panels();
         share_equal_uvs(mesh_);
         return std::move(mesh_);
@@ -69,9 +69,9 @@ class ObjParser {
     }
 
     void add_problem(std::string what, std::string where, std::string accepted) {
-        problems_.push_back({std::move(what), std::move(where), std::move(accepted)});
-        if (problems_.size() == kMaxProblems)
-            throw Error(std::move(problems_));
+        problems_.add({std::move(what), std::move(where), std::move(accepted)});
+        if (problems_.full())
+            problems_.throw_if_any();
     }
 
     bool parse_number(double &value, const char *what) {
@@ -239,7 +239,7 @@ class ObjParser {
     std::array<PanelNames, kPanelKinds> names_;
     std::array<std::vector<std::uint16_t>, kPanelKinds> face_name_;
     std::vector<ForwardIndex> forward_;
-    std::vector<Problem> problems_;
+    Problems problems_;
 };
 
 } // namespace
@@ -250,11 +250,13 @@ PolygonMesh parse_obj(std::string_view text, const std::string &name) {
     return parser.finish();
 }
 
-PolygonMesh read_obj(const std::filesystem::path &path) {
+PolygonMesh read_obj(const std::filesystem::path &path, const Progress &progress) {
     TextBlocks blocks(path);
     ObjParser parser(path.string());
-    for (std::string_view text = blocks.next(); !text.empty(); text = blocks.next())
+    for (std::string_view text = blocks.next(); !text.empty(); text = blocks.next()) {
+        look_at_stop(progress);
         parser.parse_lines(text);
+    }
     return parser.finish();
 }
 

@@ -1,7 +1,7 @@
 #include <charconv>
 
+#include "files/block_writer.h"
 #include "tsuya/garment/obj.h"
-#include "tsuya/sdk/file.h"
 
 namespace tsuya::garment {
 namespace {
@@ -41,28 +41,31 @@ void append_triangle(std::string &text, const Surface &s, const glm::uvec3 &tria
     text += '\n';
 }
 
-std::string obj_text(const Surface &s) {
-    std::string text = "# written by tsuya; metres\n";
-    for (const glm::dvec3 &p : s.position)
-        append_line(text, "v", p);
-    for (const glm::vec2 &t : s.uv)
-        append_line(text, "vt", t);
-    for (const glm::vec3 &n : s.normal)
-        append_line(text, "vn", n);
+} // namespace
+
+void write_obj(const std::filesystem::path &path, const Surface &s, const Progress &progress) {
+    check_surface(s, path.string());
+    begin_stage(progress, "garment: write");
+    BlockWriter out(path, progress);
+    std::string &text = out.bytes();
+    text = "# written by tsuya; metres\n";
+    const auto append_lines = [&](const char *keyword, const auto &rows) {
+        for (const auto &row : rows) {
+            append_line(text, keyword, row);
+            out.end_entry();
+        }
+    };
+    append_lines("v", s.position);
+    append_lines("vt", s.uv);
+    append_lines("vn", s.normal);
     for (std::size_t i = 0; i < s.triangle.size(); ++i) {
         const bool named = !s.panel.empty() && s.panel[i] < s.panel_name.size();
         if (named && (i == 0 || s.panel[i] != s.panel[i - 1]))
             text += "g " + s.panel_name[s.panel[i]] + "\n";
         append_triangle(text, s, s.triangle[i]);
+        out.end_entry();
     }
-    return text;
-}
-
-} // namespace
-
-void write_obj(const std::filesystem::path &path, const Surface &surface) {
-    check_surface(surface, path.string());
-    write_file(path, obj_text(surface));
+    out.commit();
 }
 
 } // namespace tsuya::garment

@@ -146,11 +146,12 @@ class Quiet {
 
 /// Calls a reader of OpenMesh; they are singletons with a state.
 template <typename Reader>
-PolygonMesh read_with(Reader &reader, std::string_view text, const std::string &name) {
+PolygonMesh read_with(Reader &reader, std::string_view text, const std::string &name,
+                      const Progress &progress) {
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
     const Quiet quiet;
-    PolygonImporter importer(name);
+    PolygonImporter importer(name, progress);
     std::istringstream in{std::string(text)};
     in.exceptions(std::ios::failbit | std::ios::badbit);
     OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexTexCoord);
@@ -158,6 +159,8 @@ PolygonMesh read_with(Reader &reader, std::string_view text, const std::string &
     try {
         good = reader.read(in, importer, options);
     } catch (const Error &) {
+        throw;
+    } catch (const Interrupted &) {
         throw;
     } catch (const std::exception &) { // the end of the text, or an allocation
         good = false;
@@ -172,22 +175,22 @@ PolygonMesh read_with(Reader &reader, std::string_view text, const std::string &
 
 } // namespace
 
-PolygonMesh parse_ply(std::string_view text, const std::string &name) {
+PolygonMesh parse_ply(std::string_view text, const std::string &name, const Progress &progress) {
     check_ply(text, name);
-    return read_with(OpenMesh::IO::PLYReader(), text, name);
+    return read_with(OpenMesh::IO::PLYReader(), text, name, progress);
 }
 
-PolygonMesh parse_off(std::string_view text, const std::string &name) {
+PolygonMesh parse_off(std::string_view text, const std::string &name, const Progress &progress) {
     check_off(text, name);
-    return read_with(OpenMesh::IO::OFFReader(), text, name);
+    return read_with(OpenMesh::IO::OFFReader(), text, name, progress);
 }
 
-PolygonMesh read_ply(const std::filesystem::path &path) {
-    return parse_ply(read_file(path), path.string());
+PolygonMesh read_ply(const std::filesystem::path &path, const Progress &progress) {
+    return parse_ply(read_file(path), path.string(), progress);
 }
 
-PolygonMesh read_off(const std::filesystem::path &path) {
-    return parse_off(read_file(path), path.string());
+PolygonMesh read_off(const std::filesystem::path &path, const Progress &progress) {
+    return parse_off(read_file(path), path.string(), progress);
 }
 
 } // namespace tsuya::garment

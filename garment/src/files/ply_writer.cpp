@@ -1,9 +1,8 @@
 #include <bit>
 #include <cstring>
 
+#include "files/block_writer.h"
 #include "tsuya/garment/ply.h"
-#include "tsuya/sdk/error.h"
-#include "tsuya/sdk/file.h"
 
 namespace tsuya::garment {
 namespace {
@@ -41,9 +40,13 @@ std::string header(const Surface &s) {
 
 } // namespace
 
-void write_ply(const std::filesystem::path &path, const Surface &surface) {
+void write_ply(const std::filesystem::path &path, const Surface &surface,
+               const Progress &progress) {
     check_surface(surface, path.string());
-    std::string bytes = header(surface);
+    begin_stage(progress, "garment: write");
+    BlockWriter out(path, progress);
+    std::string &bytes = out.bytes();
+    bytes = header(surface);
     for (std::size_t v = 0; v < surface.position.size(); ++v) {
         append(bytes, surface.position[v]);
         if (!surface.normal.empty())
@@ -54,6 +57,7 @@ void write_ply(const std::filesystem::path &path, const Surface &surface) {
             append(bytes, surface.warp[v]);
         if (!surface.weft.empty())
             append(bytes, surface.weft[v]);
+        out.end_entry();
     }
     for (std::size_t i = 0; i < surface.triangle.size(); ++i) {
         append(bytes, std::uint8_t{3});
@@ -61,8 +65,9 @@ void write_ply(const std::filesystem::path &path, const Surface &surface) {
             append(bytes, static_cast<std::int32_t>(surface.triangle[i][c]));
         if (!surface.panel.empty())
             append(bytes, surface.panel[i]);
+        out.end_entry();
     }
-    write_file(path, bytes);
+    out.commit();
 }
 
 } // namespace tsuya::garment

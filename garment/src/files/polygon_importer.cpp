@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "mesh/stop.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -26,6 +27,7 @@ OpenMesh::VertexHandle PolygonImporter::add_vertex(const OpenMesh::Vec3f &p) {
 }
 
 OpenMesh::VertexHandle PolygonImporter::add_vertex(const OpenMesh::Vec3d &p) {
+    look_at_stop(progress_, mesh_.position.size());
     mesh_.position.emplace_back(p[0], p[1], p[2]);
     return OpenMesh::VertexHandle(static_cast<int>(mesh_.position.size()) - 1);
 }
@@ -36,6 +38,7 @@ OpenMesh::VertexHandle PolygonImporter::add_vertex() {
 
 OpenMesh::FaceHandle PolygonImporter::add_face(const VHandles &vertices) {
     const std::size_t face = mesh_.face_count();
+    look_at_stop(progress_, face);
     if (vertices.size() < 3)
         throw Error({"face " + std::to_string(face) + " has " + std::to_string(vertices.size()) +
                          " corners",

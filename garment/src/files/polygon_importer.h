@@ -5,13 +5,16 @@
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/sdk/progress.h"
 
 namespace tsuya::garment {
 
-/// Collects vertices, faces and UVs. A face that names a missing vertex throws Error.
+/// Collects vertices, faces and UVs. A face that names a missing vertex throws Error; Interrupted.
 class PolygonImporter final : public OpenMesh::IO::BaseImporter {
   public:
-    explicit PolygonImporter(std::string name) : name_(std::move(name)) {}
+    /// \param progress must outlive this
+    PolygonImporter(std::string name, const Progress &progress)
+        : name_(std::move(name)), progress_(progress) {}
 
     /// The mesh; throws Error where it has no face.
     PolygonMesh take();
@@ -71,6 +74,7 @@ class PolygonImporter final : public OpenMesh::IO::BaseImporter {
 
   private:
     std::string name_;
+    const Progress &progress_;
     PolygonMesh mesh_;
     std::vector<bool> has_uv_;
 };

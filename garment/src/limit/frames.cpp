@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/stop.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -23,7 +24,7 @@ std::vector<glm::dvec2> panel_grain(const LimitMesh &mesh, const FrameOptions &o
                                     const std::string &where) {
     std::vector<double> grain(std::max<std::size_t>(mesh.panel_name.size(), 1),
                               options.default_grain);
-    std::vector<Problem> problems;
+    Problems problems;
     for (const auto &[name, angle] : options.grain) {
         bool found = false;
         for (std::size_t p = 0; p < mesh.panel_name.size(); ++p)
@@ -31,15 +32,12 @@ std::vector<glm::dvec2> panel_grain(const LimitMesh &mesh, const FrameOptions &o
                 grain[p] = angle;
                 found = true;
             }
-        if (!found && problems.size() < kMaxProblems)
-            problems.push_back({"no panel is named '" + name + "'", where + ": grain",
-                                accepted_names(name, mesh.panel_name)});
-        if (!std::isfinite(angle) && problems.size() < kMaxProblems)
-            problems.push_back({"the grain of '" + name + "' is not finite", where + ": grain",
-                                "expected radians"});
+        problems.need(found, "no panel is named '" + name + "'", where + ": grain",
+                      accepted_names(name, mesh.panel_name));
+        problems.need(std::isfinite(angle), "the grain of '" + name + "' is not finite",
+                      where + ": grain", "expected radians");
     }
-    if (!problems.empty())
-        throw Error(std::move(problems));
+    problems.throw_if_any();
     std::vector<glm::dvec2> turn;
     for (const double angle : grain)
         turn.emplace_back(std::cos(angle), std::sin(angle));
@@ -47,10 +45,11 @@ std::vector<glm::dvec2> panel_grain(const LimitMesh &mesh, const FrameOptions &o
 }
 
 /// Warp along the vertical in the tangent plane, for meshes without UV.
-void invent_frames(const LimitMesh &mesh, double angle, Surface &s) {
+void invent_frames(const LimitMesh &mesh, double angle, Surface &s, const Progress &progress) {
     s.warp.resize(mesh.position.size());
     s.weft.resize(mesh.position.size());
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+        look_at_stop(progress, v);
         const glm::dvec3 n(mesh.normal[v]);
         glm::vec3 up;
         if (!into_plane({0, 1, 0}, n, up))
@@ -64,8 +63,9 @@ void invent_frames(const LimitMesh &mesh, double angle, Surface &s) {
 
 /// Frames from the derivatives; `valid` tells where that was possible.
 void frames_from_uv(const LimitMesh &mesh, const std::vector<glm::dvec2> &grain, Surface &s,
-                    std::vector<bool> &valid, FrameReport &report) {
+                    std::vector<bool> &valid, FrameReport &report, const Progress &progress) {
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+        look_at_stop(progress, v);
         const double c = grain[mesh.panel[v]].x, d = grain[mesh.panel[v]].y;
         const glm::dvec3 n(mesh.normal[v]), p_u(mesh.dp_du[v]), p_v(mesh.dp_dv[v]);
         // The yarns' own coordinates are the UV turned by the grain.
@@ -159,12 +159,13 @@ double degenerate_share(const LimitMesh &mesh, const std::vector<bool> &valid) {
 }
 
 void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface &s,
-                     FrameReport &report, const std::string &where) {
+                     FrameReport &report, const std::string &where, const Progress &progress) {
     const std::vector<glm::dvec2> grain = panel_grain(mesh, options, where);
     s.warp.resize(mesh.position.size());
     s.weft.resize(mesh.position.size());
     std::vector<bool> valid(mesh.position.size());
-    frames_from_uv(mesh, grain, s, valid, report);
+    frames_from_uv(mesh, grain, s, valid, report, progress);
+    look_at_stop(progress);
     for (const bool v : valid)
         report.repaired += !v;
     if (report.repaired > 0) {
@@ -177,7 +178,7 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
                              "expected at most " +
                                  std::to_string(100.0 * options.max_degenerate_area) +
                                  " %, or a stated direction of the grain"});
-            invent_frames(mesh, *options.invented_grain, s);
+            invent_frames(mesh, *options.invented_grain, s, progress);
             return;
         }
         spread_frames(mesh, s, valid);
@@ -193,12 +194,13 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
 } // namespace
 
 Surface add_frames(LimitMesh mesh, const FrameOptions &options, FrameReport &report,
-                   const std::string &where) {
+                   const std::string &where, const Progress &progress) {
+    begin_stage(progress, "garment: frames");
     Surface s;
     if (!mesh.uv.empty())
-        frames_of_cloth(mesh, options, s, report, where);
+        frames_of_cloth(mesh, options, s, report, where, progress);
     else if (options.invented_grain)
-        invent_frames(mesh, *options.invented_grain, s);
+        invent_frames(mesh, *options.invented_grain, s, progress);
     s.position = std::move(mesh.position);
     s.normal = std::move(mesh.normal);
     s.triangle = std::move(mesh.triangle);

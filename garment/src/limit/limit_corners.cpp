@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/edges.h"
+#include "mesh/stop.h"
 
 namespace tsuya::garment {
 namespace {
@@ -45,11 +45,13 @@ bool has_crease(const OpenSubdiv::Far::TopologyLevel &level, int vertex) {
 
 } // namespace
 
-LimitCorners::LimitCorners(const LimitSurface &surface, const LimitNumbering &numbering)
+LimitCorners::LimitCorners(const LimitSurface &surface, const LimitNumbering &numbering,
+                           const Progress &progress)
     : mesh_(surface.mesh()) {
     const auto &level = surface.topology();
     const bool loop = surface.scheme() == OpenSubdiv::Sdc::SCHEME_LOOP;
     for (int v = 0; v < level.GetNumVertices(); ++v) {
+        look_at_stop(progress, static_cast<std::size_t>(v));
         const int faces = level.GetVertexFaces(v).size();
         const bool hem = level.IsVertexBoundary(v);
         // A hem's regular vertices have 3 triangles or 2 quads; Bfr is exact at fewer too, and

@@ -13,7 +13,8 @@ namespace tsuya::garment {
 /// left to Bfr.
 class LimitCorners {
   public:
-    LimitCorners(const LimitSurface &surface, const LimitNumbering &numbering);
+    LimitCorners(const LimitSurface &surface, const LimitNumbering &numbering,
+                 const Progress &progress);
 
     /// Sets the normals there and, inside of a panel, dp_du and dp_dv. Where the tangents are
     /// parallel nothing is changed. \param positions in the topology that was given

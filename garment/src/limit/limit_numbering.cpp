@@ -1,5 +1,7 @@
 #include "limit/limit_numbering.h"
 
+#include "mesh/stop.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -33,10 +35,12 @@ FacePattern make_pattern(OpenSubdiv::Sdc::SchemeType scheme, int corners,
 
 } // namespace
 
-FacePatterns::FacePatterns(const LimitSurface &surface, const TessellationRates &rates) {
+FacePatterns::FacePatterns(const LimitSurface &surface, const TessellationRates &rates,
+                           const Progress &progress) {
     const PolygonMesh &mesh = surface.mesh();
     std::vector<int> key;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        look_at_stop(progress, f);
         const auto corners = static_cast<int>(mesh.face_size(f));
         key.assign(1, corners);
         const auto edges = surface.topology().GetFaceEdges(static_cast<int>(f));
@@ -53,7 +57,7 @@ FacePatterns::FacePatterns(const LimitSurface &surface, const TessellationRates 
 }
 
 LimitNumbering::LimitNumbering(const LimitSurface &surface, const FacePatterns &patterns,
-                               const TessellationRates &rates)
+                               const TessellationRates &rates, const Progress &progress)
     : mesh_(surface.mesh()), corner_vertex_(mesh_.corner_position.size()),
       edge_inner_(mesh_.corner_position.size()), edge_vertex_(mesh_.corner_position.size()),
       interior_vertex_(mesh_.face_count()) {
@@ -63,6 +67,7 @@ LimitNumbering::LimitNumbering(const LimitSurface &surface, const FacePatterns &
     std::vector<std::uint32_t> edge_head(static_cast<std::size_t>(level.GetNumEdges()), kNone);
     sides_.reserve(mesh.position.size() + edge_head.size());
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        look_at_stop(progress, f);
         const std::uint16_t panel = mesh.face_panel[f];
         const auto edges = level.GetFaceEdges(static_cast<int>(f));
         for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {

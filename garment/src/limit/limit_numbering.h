@@ -20,7 +20,8 @@ struct FacePattern {
 /// The pattern of every face; faces that are cut alike share one.
 class FacePatterns {
   public:
-    FacePatterns(const LimitSurface &surface, const TessellationRates &rates);
+    FacePatterns(const LimitSurface &surface, const TessellationRates &rates,
+                 const Progress &progress);
     const FacePattern &of(std::size_t face) const { return *of_face_[face]; }
 
   private:
@@ -34,7 +35,7 @@ class FacePatterns {
 class LimitNumbering {
   public:
     LimitNumbering(const LimitSurface &surface, const FacePatterns &patterns,
-                   const TessellationRates &rates);
+                   const TessellationRates &rates, const Progress &progress);
 
     /// Vertex of each coordinate of the face's pattern, in the pattern's order.
     void face_vertices(std::size_t face, std::uint32_t interior_count,

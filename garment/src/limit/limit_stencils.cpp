@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "mesh/face_plane.h"
+#include "mesh/stop.h"
 
 namespace tsuya::garment {
 namespace {
@@ -30,7 +31,7 @@ glm::dvec4 cloth_of(const LimitSample &sample) {
 } // namespace
 
 LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &patterns,
-                             const LimitNumbering &numbering)
+                             const LimitNumbering &numbering, const Progress &progress)
     : face_(surface.mesh().face_count()), first_(numbering.face_first()) {
     if (!surface.mesh().uv.empty())
         cloth_.resize(numbering.place().size());
@@ -38,7 +39,7 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
     std::mutex sharing;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, face_.size(), 64), [&](auto range) {
         Worker &worker = workers.local();
-        for (std::size_t f = range.begin(); f != range.end(); ++f) {
+        for (std::size_t f = range.begin(); f != range.end() && !progress.stopped(); ++f) {
             if (first_[f] == first_[f + 1])
                 continue;
             surface.prepare(f, worker.scratch);
@@ -76,6 +77,7 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
             face.weight = &*weights_.insert(std::move(weight)).first;
         }
     });
+    look_at_stop(progress);
 }
 
 void LimitStencils::apply(const PolygonMesh &mesh, const glm::dvec3 &centre, LimitMesh &out) const {

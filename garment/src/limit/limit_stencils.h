@@ -13,7 +13,7 @@ namespace tsuya::garment {
 class LimitStencils {
   public:
     LimitStencils(const LimitSurface &surface, const FacePatterns &patterns,
-                  const LimitNumbering &numbering);
+                  const LimitNumbering &numbering, const Progress &progress);
 
     /// Sets position, normal, dp_du and dp_dv of the vertices of `out`, whose arrays have their
     /// lengths. Where tangents vanish, the normal is that of the control face.

@@ -7,6 +7,7 @@
 #include <opensubdiv/far/topologyDescriptor.h>
 
 #include "limit/creases.h"
+#include "mesh/stop.h"
 #include "mesh/valence.h"
 #include "tsuya/sdk/error.h"
 
@@ -144,11 +145,15 @@ bool LimitSample::cloth(glm::dvec3 &dp_du, glm::dvec3 &dp_dv) const {
     return true;
 }
 
-LimitSurface::LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &options) : mesh_(mesh) {
+LimitSurface::LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &options,
+                           const Progress &progress)
+    : mesh_(mesh) {
+    begin_stage(progress, "subdivide: topology");
     check_indices(mesh, "mesh");
     check_input(mesh, options);
     scheme_ = choose_scheme(mesh, options.scheme);
     refiner_ = make_refiner(mesh, options, scheme_);
+    look_at_stop(progress);
     Factory::Options factory_options;
     factory_options.SetApproxLevelSmooth(kApproximationLevel);
     factory_options.SetApproxLevelSharp(kSharpApproximationLevel);

@@ -44,7 +44,8 @@ class LimitSurface {
 
     /// \param mesh manifold; must outlive this
     /// Throws Error for the Loop scheme with faces that are not triangles, and for bad options.
-    LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &options);
+    LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &options,
+                 const Progress &progress);
 
     OpenSubdiv::Sdc::SchemeType scheme() const { return scheme_; }
     const OpenSubdiv::Far::TopologyLevel &topology() const { return refiner_->GetLevel(0); }

@@ -12,18 +12,13 @@
 #include "limit/limit_surface.h"
 #include "limit/tessellation_rates.h"
 #include "mesh/face_plane.h"
+#include "mesh/stop.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
 namespace {
 
 constexpr double kInfinitelySharp = 10.0; // Sdc::Crease::SHARPNESS_INFINITE
-
-TessellationRates choose_rates(const LimitSurface &surface, const SubdivideOptions &options) {
-    if (options.tolerance || options.view)
-        return adaptive_rates(surface, options);
-    return uniform_rates(surface, 1 << options.level);
-}
 
 /// What a thread needs.
 struct Worker {
@@ -35,18 +30,24 @@ struct Worker {
 } // namespace
 
 struct Subdivider::State {
-    State(PolygonMesh given, const SubdivideOptions &options)
-        : mesh(std::move(given)), crease(options.seam_crease), surface(mesh, options),
-          rates(choose_rates(surface, options)), patterns(surface, rates),
-          numbering(surface, patterns, rates), corners(surface, numbering) {
+    State(PolygonMesh given, const SubdivideOptions &options, const Progress &progress)
+        : mesh(std::move(given)), crease(options.seam_crease), surface(mesh, options, progress),
+          rates(choose_rates(surface, options, progress)), patterns(surface, rates, progress),
+          numbering(surface, patterns, rates, progress), corners(surface, numbering, progress) {
         const std::size_t vertices = numbering.place().size();
         fixed.place = numbering.place();
         fixed.panel_name = mesh.panel_name;
         fixed.panel.resize(vertices);
         if (!mesh.uv.empty())
             fixed.uv.resize(vertices);
+        std::size_t triangles = 0;
+        for (std::size_t f = 0; f < mesh.face_count(); ++f)
+            triangles += patterns.of(f).triangle.size();
+        fixed.triangle.reserve(triangles);
+        fixed.triangle_panel.reserve(triangles);
         std::vector<std::uint32_t> numbers;
         for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+            look_at_stop(progress, f);
             const FacePattern &pattern = patterns.of(f);
             numbering.face_vertices(f, pattern.interior_count, numbers);
             for (const glm::uvec3 &t : pattern.triangle) {
@@ -92,10 +93,11 @@ struct Subdivider::State {
     }
 
     /// Frames after the first: weighted sums, and what no frame changes.
-    LimitMesh next_frame() {
+    LimitMesh next_frame(const Progress &progress = {}) {
         if (!stencils) {
-            stencils.emplace(surface, patterns, numbering);
-            first = evaluate({});
+            begin_stage(progress, "subdivide: weights");
+            stencils.emplace(surface, patterns, numbering, progress);
+            first = evaluate(progress);
             for (std::vector<glm::vec3> *changing : {&first->normal, &first->dp_du, &first->dp_dv})
                 changing->clear();
             first->position.clear();
@@ -128,14 +130,13 @@ struct Subdivider::State {
         out.dp_du.assign(out.uv.size(), glm::vec3(0.0f));
         out.dp_dv.assign(out.uv.size(), glm::vec3(0.0f));
         tbb::enumerable_thread_specific<Worker> workers;
-        progress("subdivide", 0.0);
+        begin_stage(progress, "subdivide");
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, mesh.face_count(), 64), [&](auto range) {
                 for (std::size_t f = range.begin(); f != range.end() && !progress.stopped(); ++f)
                     evaluate_face(f, out, workers.local());
             });
-        if (progress.stopped())
-            throw Interrupted("stopped while subdividing");
+        look_at_stop(progress);
         for (const Worker &worker : workers)
             out.repaired_normals += worker.repaired_normals;
         corners.apply(mesh.position, surface.centre(), out);
@@ -156,15 +157,15 @@ struct Subdivider::State {
     std::optional<LimitMesh> first; ///< what no frame changes, with UVs
 };
 
-Subdivider::Subdivider(PolygonMesh mesh, const SubdivideOptions &options)
-    : state_(std::make_unique<State>(std::move(mesh), options)) {}
+Subdivider::Subdivider(PolygonMesh mesh, const SubdivideOptions &options, const Progress &progress)
+    : state_(std::make_unique<State>(std::move(mesh), options, progress)) {}
 Subdivider::~Subdivider() = default;
 Subdivider::Subdivider(Subdivider &&) noexcept = default;
 Subdivider &Subdivider::operator=(Subdivider &&) noexcept = default;
 
 LimitMesh Subdivider::evaluate(const Progress &progress) { return state_->evaluate(progress); }
 
-void Subdivider::expect_frames() { state_->next_frame(); }
+void Subdivider::expect_frames(const Progress &progress) { state_->next_frame(progress); }
 
 LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions) {
     if (positions.size() != state_->mesh.position.size())
@@ -179,7 +180,7 @@ LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions) {
 
 LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options,
                     const Progress &progress) {
-    return Subdivider(mesh, options).evaluate(progress);
+    return Subdivider(mesh, options, progress).evaluate(progress);
 }
 
 } // namespace tsuya::garment

@@ -73,11 +73,10 @@ double root_mean(double sum, std::size_t count) {
 
 TessellationError measure_tessellation(const PolygonMesh &mesh, const SubdivideOptions &options,
                                        const std::optional<Camera> &camera) {
-    const LimitSurface surface(mesh, options);
-    const TessellationRates rates = options.tolerance || options.view
-                                        ? adaptive_rates(surface, options)
-                                        : uniform_rates(surface, 1 << options.level);
-    const FacePatterns patterns(surface, rates);
+    const Progress unattended;
+    const LimitSurface surface(mesh, options, unattended);
+    const TessellationRates rates = choose_rates(surface, options, unattended);
+    const FacePatterns patterns(surface, rates, unattended);
     TessellationError error;
     Sums sums;
     LimitSurface::Scratch scratch;

@@ -12,7 +12,9 @@
 #include <tbb/parallel_for.h>
 
 #include "limit/face_departure.h"
+#include "limit/limit_size.h"
 #include "limit/view_tolerance.h"
+#include "mesh/stop.h"
 
 namespace tsuya::garment {
 namespace {
@@ -262,23 +264,26 @@ TessellationRates uniform_rates(const LimitSurface &surface, int rate) {
             std::vector<glm::ivec2>(surface.mesh().face_count(), glm::ivec2(rate))};
 }
 
-TessellationRates adaptive_rates(const LimitSurface &surface, const SubdivideOptions &options) {
+TessellationRates adaptive_rates(const LimitSurface &surface, const SubdivideOptions &options,
+                                 const Progress &progress) {
     const RateChooser chooser(surface, options);
     const std::size_t faces = surface.mesh().face_count();
     std::vector<FaceNeed> need(faces);
     tbb::enumerable_thread_specific<LimitSurface::Scratch> scratches;
     const auto for_each_face = [&](auto &&work) {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces, 64), [&](auto range) {
-            for (std::size_t f = range.begin(); f != range.end(); ++f)
+            for (std::size_t f = range.begin(); f != range.end() && !progress.stopped(); ++f)
                 work(f, scratches.local());
         });
+        look_at_stop(progress);
     };
     for_each_face(
         [&](std::size_t f, LimitSurface::Scratch &scratch) { need[f] = chooser.need(f, scratch); });
     // The estimate is too low about extraordinary vertices and where rates differ along a face.
     TessellationRates rates = join_needs(surface, need), before;
     for (int round = 0; round < kMaxRounds; ++round) {
-        const FacePatterns patterns(surface, rates);
+        need_room(surface, rates, options);
+        const FacePatterns patterns(surface, rates, progress);
         std::atomic<bool> raised = false;
         for_each_face([&](std::size_t f, LimitSurface::Scratch &scratch) {
             if (!std::isfinite(need[f].tolerance) ||
@@ -292,6 +297,16 @@ TessellationRates adaptive_rates(const LimitSurface &surface, const SubdivideOpt
             break;
         before = std::exchange(rates, join_needs(surface, need));
     }
+    return rates;
+}
+
+TessellationRates choose_rates(const LimitSurface &surface, const SubdivideOptions &options,
+                               const Progress &progress) {
+    begin_stage(progress, "subdivide: rates");
+    TessellationRates rates = options.tolerance || options.view
+                                  ? adaptive_rates(surface, options, progress)
+                                  : uniform_rates(surface, 1 << options.level);
+    need_room(surface, rates, options);
     return rates;
 }
 

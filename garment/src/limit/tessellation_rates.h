@@ -17,7 +17,13 @@ struct TessellationRates {
 /// Every edge and face alike.
 TessellationRates uniform_rates(const LimitSurface &surface, int rate);
 
-/// As many as the tolerance of `options` asks for; see SubdivideOptions.
-TessellationRates adaptive_rates(const LimitSurface &surface, const SubdivideOptions &options);
+/// What `options` ask for: uniform_rates of its level, or adaptive_rates. Throws Error where the
+/// memory does not hold the surface, and Interrupted.
+TessellationRates choose_rates(const LimitSurface &surface, const SubdivideOptions &options,
+                               const Progress &progress);
+
+/// As many as the tolerance of `options` asks for; see SubdivideOptions. Throws Interrupted.
+TessellationRates adaptive_rates(const LimitSurface &surface, const SubdivideOptions &options,
+                                 const Progress &progress);
 
 } // namespace tsuya::garment

@@ -170,6 +170,8 @@ void MeshRepair::list_findings() {
     find_units(report_, findings);
     find_topology(report_, findings);
     find_seams(report_, findings);
+    if (!cloth_)
+        return;
     find_uv(report_, findings);
     if (report_.panels == 0)
         findings.add(Severity::note, "no_panels", "the file names no group, object or material",

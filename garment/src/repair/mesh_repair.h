@@ -22,8 +22,10 @@ namespace tsuya::garment {
 class MeshRepair {
   public:
     /// \param metres a mesh with valid indices, positions in metres
-    MeshRepair(PolygonMesh metres, const SeamOptions &options, Progress progress)
-        : mesh_(std::move(metres)), options_(options), progress_(std::move(progress)) {}
+    /// \param cloth false: nobody looks at the UVs (a body), so there are no findings about them
+    MeshRepair(PolygonMesh metres, const SeamOptions &options, bool cloth, Progress progress)
+        : mesh_(std::move(metres)), options_(options), cloth_(cloth),
+          progress_(std::move(progress)) {}
 
     /// All steps.
     Prepared run();
@@ -100,6 +102,7 @@ class MeshRepair {
     Report report_{};
     PositionRecipe recipe_{};
     SeamOptions options_;
+    bool cloth_;
     Progress progress_;
     bool joining_ = false; ///< findings about the topology belong to the joined mesh
     bool settled_ = false; ///< make_manifold would find nothing to do

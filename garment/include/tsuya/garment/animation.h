@@ -22,14 +22,15 @@ struct GarmentFrames {
 /// where the faces are not those of the first.
 GarmentFrames read_frames(const std::filesystem::path &first,
                           const std::vector<std::filesystem::path> &further,
-                          bool with_morph_targets = false);
+                          bool with_morph_targets = false, const Progress &progress = {});
 
 /// Repairs, seams, rates of tessellation, numbering and UVs are those of the first frame and are
 /// worked out once; seams that were joined stay joined.
 class AnimatedGarment {
   public:
     /// \param file the first frame \param where names it in errors. Throws as load.
-    AnimatedGarment(const MeshFile &file, const Options &options, const std::string &where);
+    AnimatedGarment(const MeshFile &file, const Options &options, const std::string &where,
+                    const Progress &progress = {});
 
     ~AnimatedGarment();
     AnimatedGarment(AnimatedGarment &&) noexcept;

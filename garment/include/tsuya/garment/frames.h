@@ -39,8 +39,8 @@ struct FrameReport {
 /// the side of the normal. Where the UV is degenerate, directions spread from the nearest valid
 /// vertices of the same panel.
 /// Throws Error naming `where` if the degenerate share is above its limit or `grain` names an
-/// unknown panel.
+/// unknown panel; Interrupted.
 Surface add_frames(LimitMesh mesh, const FrameOptions &options, FrameReport &report,
-                   const std::string &where);
+                   const std::string &where, const Progress &progress = {});
 
 } // namespace tsuya::garment

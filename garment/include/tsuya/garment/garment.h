@@ -28,9 +28,10 @@ struct Options {
     std::optional<double> metres_per_uv{};
     SeamOptions seams{};
     SubdivideOptions subdivide{};
-    FrameOptions frames{};   ///< its metres_per_uv is replaced by the one above
-    bool want_frames = true; ///< false: no warp, weft and UV (a body)
-    bool strict = false;     ///< every finding that is a warning becomes an Error
+    FrameOptions frames{}; ///< its metres_per_uv is replaced by the one above
+    /// False: no warp, weft and UV, and no findings about UVs (a body).
+    bool want_frames = true;
+    bool strict = false; ///< every finding that is a warning becomes an Error
 };
 
 /// A garment or body that is ready to be rendered.

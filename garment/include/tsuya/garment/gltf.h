@@ -21,11 +21,11 @@ namespace tsuya::garment {
 /// Counts are checked against the bytes that the file has before anything is allocated; buffers
 /// may come from the file's own folder alone.
 /// Throws Error naming the file, and the accessor or node.
-MeshFile read_gltf(const std::filesystem::path &path);
+MeshFile read_gltf(const std::filesystem::path &path, const Progress &progress = {});
 
 /// The same from bytes in memory. \param name stands for the file in errors \param folder may
 /// hold further buffers; empty: no other file is read
 MeshFile parse_gltf(std::string_view bytes, const std::string &name,
-                    const std::filesystem::path &folder = {});
+                    const std::filesystem::path &folder = {}, const Progress &progress = {});
 
 } // namespace tsuya::garment

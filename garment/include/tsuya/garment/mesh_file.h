@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/sdk/progress.h"
 
 namespace tsuya::garment {
 
@@ -39,7 +40,8 @@ struct MeshFile {
 const std::vector<std::string> &mesh_extensions();
 
 /// Reads `.obj`, `.gltf`, `.glb`, `.ply` or `.off`, by the file's extension. Throws Error naming
-/// the file for another extension, and what the format's reader throws.
-MeshFile read_mesh(const std::filesystem::path &path);
+/// the file for another extension, and what the format's reader throws; Interrupted where
+/// `progress` says stop, as all readers.
+MeshFile read_mesh(const std::filesystem::path &path, const Progress &progress = {});
 
 } // namespace tsuya::garment

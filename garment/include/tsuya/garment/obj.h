@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/surface.h"
 
 namespace tsuya::garment {
@@ -22,14 +23,15 @@ namespace tsuya::garment {
 ///
 /// Throws Error listing up to 20 places as `file:line:column`: a number that does not parse or is
 /// not finite, an index that is 0 or names nothing, a face of fewer than 3 corners, no face at all.
-PolygonMesh read_obj(const std::filesystem::path &path);
+PolygonMesh read_obj(const std::filesystem::path &path, const Progress &progress = {});
 
 /// The same from text in memory. \param name stands for the file in errors
 PolygonMesh parse_obj(std::string_view text, const std::string &name);
 
-/// Writes triangles with `v`, `vt`, `vn` and one `g` a panel, to a temporary name that is then
-/// renamed. Frames are not kept by the format. Throws Error naming the path if it cannot be
-/// written.
-void write_obj(const std::filesystem::path &path, const Surface &surface);
+/// Writes triangles with `v`, `vt`, `vn` and one `g` a panel, by atomic replacement. The format has
+/// no place for warp and weft. Throws Error naming the path if it cannot be written, and
+/// Interrupted.
+void write_obj(const std::filesystem::path &path, const Surface &surface,
+               const Progress &progress = {});
 
 } // namespace tsuya::garment

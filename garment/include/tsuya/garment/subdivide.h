@@ -78,8 +78,9 @@ struct LimitMesh {
 /// vertices, and the centre of faces that are neither triangle nor quad.
 /// UVs are face-varying: smooth inside a panel, linear along its boundary.
 /// \param mesh manifold (see make_manifold)
-/// Throws Error for a level out of range, the Loop scheme with faces that are not triangles, or a
-/// vertex or face of 256 neighbours or more.
+/// Throws Error for a level out of range, the Loop scheme with faces that are not triangles, a
+/// vertex or face of 256 neighbours or more, or more points than the memory holds, before it is
+/// taken; Interrupted where `progress` says stop.
 LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options = {},
                     const Progress &progress = {});
 
@@ -88,7 +89,7 @@ LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options = {
 class Subdivider {
   public:
     /// Throws as subdivide.
-    Subdivider(PolygonMesh mesh, const SubdivideOptions &options);
+    Subdivider(PolygonMesh mesh, const SubdivideOptions &options, const Progress &progress = {});
     ~Subdivider();
     Subdivider(Subdivider &&) noexcept;
     Subdivider &operator=(Subdivider &&) noexcept;
@@ -99,7 +100,7 @@ class Subdivider {
     /// stay those of the mesh that was given. Throws Error for another number of positions.
     LimitMesh evaluate(const std::vector<glm::dvec3> &positions);
     /// Works out now what the first call with other positions would: weights of the control points.
-    void expect_frames();
+    void expect_frames(const Progress &progress = {});
 
   private:
     struct State;
@@ -115,7 +116,8 @@ struct TessellationError {
     std::size_t triangles = 0;
 };
 
-/// Measures what the triangles of `subdivide` depart by. \param camera whose pixels are counted
+/// Measures what the triangles of `subdivide` depart by. Throws as subdivide.
+/// \param camera whose pixels are counted
 TessellationError measure_tessellation(const PolygonMesh &mesh, const SubdivideOptions &options,
                                        const std::optional<Camera> &camera = {});
 

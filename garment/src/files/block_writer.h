@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// A file that is written block by block, by atomic replacement.
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "mesh/stop.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya::garment {
+
+/// Collects bytes and writes them in blocks, with a look at the stop flag at each: a file may be
+/// larger than the memory that is left. Without `commit` nothing stands under the name.
+class BlockWriter {
+  public:
+    /// \param progress must outlive this
+    BlockWriter(std::filesystem::path file, const Progress &progress)
+        : file_(std::move(file)), progress_(progress) {}
+
+    /// What was collected; to be appended to.
+    std::string &bytes() { return bytes_; }
+    /// Called after each line or entry. Throws Error as FileReplacement, and Interrupted.
+    void end_entry() {
+        if (bytes_.size() >= kBlockBytes)
+            write_block();
+    }
+    void commit() {
+        write_block();
+        file_.commit();
+    }
+
+  private:
+    static constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+
+    void write_block() {
+        look_at_stop(progress_);
+        file_.write(bytes_);
+        bytes_.clear();
+    }
+
+    FileReplacement file_;
+    const Progress &progress_;
+    std::string bytes_;
+};
+
+} // namespace tsuya::garment
