@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "command.h"
 #include "json_file.h"
@@ -28,12 +29,12 @@ struct GarmentCheck final : Command {
     }
     // [/doc:command]
 
-    Status run(Console &) override {
+    Status run(Console &console) override {
         const double metres = garment::metres_per(unit);
-        garment::PolygonMesh read = garment::read_mesh(mesh).mesh;
+        garment::PolygonMesh read = garment::read_mesh(mesh, console.progress()).mesh;
         for (glm::dvec3 &p : read.position)
             p *= metres;
-        const garment::Report report = garment::check(read);
+        const garment::Report report = garment::check(std::move(read), {}, console.progress());
         if (json)
             std::cout << json_of(report).text() << "\n";
         else

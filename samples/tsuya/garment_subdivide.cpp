@@ -69,9 +69,9 @@ struct GarmentSubdivide final : Command {
         // [doc:command_run]
         scene::prepare_output_file(output);
         if (output.extension() == ".ply")
-            garment::write_ply(output, loaded.surface);
+            garment::write_ply(output, loaded.surface, console.progress());
         else
-            garment::write_obj(output, loaded.surface);
+            garment::write_obj(output, loaded.surface, console.progress());
         std::cout << output.string() << "\n";
         return kDone;
         // [/doc:command_run]

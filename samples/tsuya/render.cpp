@@ -71,7 +71,7 @@ struct Render final : Command {
     Status run(Console &console) override {
         if (!explains)
             check_output();
-        scene::SceneFile file = scene::read_scene_file(scene);
+        scene::SceneFile file = scene::read_scene_file(scene, console.progress());
         for (std::vector<scene::MeshEntry> *entries : {&file.garments, &file.bodies})
             for (scene::MeshEntry &entry : *entries)
                 if (tolerance_px)

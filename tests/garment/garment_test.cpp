@@ -74,6 +74,23 @@ TEST(Load, MeasuresTheUvScaleWhereItIsNotStated) {
     EXPECT_TRUE(body.surface.uv.empty());
 }
 
+TEST(Load, FindsNothingAboutUvsThatNobodyNeeds) {
+    PolygonMesh m = test::panel(4, 4, 0.1);
+    for (glm::dvec2 &t : m.uv)
+        t = {0.1 * t.x, 0.3 * t.y};
+    m.uv[0] = m.uv[1] = m.uv[5];
+    m.corner_uv.back() = -1;
+    std::set<std::string> cloth, body;
+    for (const Finding &f : load(m, {.frames = {.max_degenerate_area = 1}}, "mesh").report.findings)
+        cloth.insert(f.key);
+    for (const Finding &f : load(m, {.want_frames = false}, "mesh").report.findings)
+        body.insert(f.key);
+    for (const char *key : {"uneven_uv_scale", "uv_scale_measured", "faces_without_uv",
+                            "faces_without_uv_area", "no_panels"})
+        EXPECT_TRUE(cloth.contains(key)) << key;
+    EXPECT_EQ(body, std::set<std::string>{"openings"});
+}
+
 TEST(Load, FarAwayOrScaledMeshesHaveTheSameFrames) {
     const PolygonMesh near = test::Torus().mesh(16);
     const Options options{.metres_per_uv = 1.0, .seams = {.tolerance = -1}};

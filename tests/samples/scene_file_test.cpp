@@ -1,11 +1,15 @@
 #include "tsuya/scene/scene_file.h"
 
+#include <atomic>
+
 #include <gtest/gtest.h>
 
+#include "garment/expect_stops.h"
 #include "samples/scratch.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya::scene {
 namespace {
@@ -75,6 +79,29 @@ TEST(SceneFile, BuildsAScene) {
     const glm::dvec3 pixel = project_point(scene.camera, {0, 0.3, 0});
     EXPECT_NEAR(pixel.x, 8, 1);
     EXPECT_NEAR(pixel.y, 10, 1);
+}
+
+/// What loading a mesh reports; the order of both builders below.
+const std::vector<std::string> kLoading{
+    "garment: repair",  "garment: join seams", "garment: measure", "subdivide: topology",
+    "subdivide: rates", "subdivide",           "garment: frames"};
+
+TEST(SceneFile, BuildingStopsInEveryStage) {
+    const Scratch scratch;
+    const SceneFile file = read(scratch, small_scene());
+    std::vector<std::string> stages{"garment: read"};
+    stages.insert(stages.end(), kLoading.begin(), kLoading.end());
+    tsuya::test::expect_stops_in_every_stage([&](const Progress &p) { build_scene(file, p); },
+                                             stages);
+}
+
+TEST(SceneFile, ReadingPanelNamesStops) {
+    const Scratch scratch;
+    const std::atomic<bool> stop = true;
+    std::string text = small_scene();
+    text.replace(text.find("fabric = \"silk\""), 15, "fabric = \"silk\"\ngrain.panel = 3");
+    const SceneFile file = read(scratch, text);
+    EXPECT_THROW(read_scene_file(file.path, {.stop = &stop}), Interrupted);
 }
 
 TEST(SceneFile, APixelToleranceIsOfTheScenesCamera) {

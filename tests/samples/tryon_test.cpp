@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "garment/expect_stops.h"
 #include "samples/scratch.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/studio.h"
@@ -40,6 +41,23 @@ TEST(TryOn, LightsTheGarmentFromTheLeftOfThePicture) {
         EXPECT_LT(glm::dot(centre - scene.camera.target, right), 0);
         EXPECT_GT(centre.y, scene.camera.target.y);
     }
+}
+
+TEST(TryOn, PreparationStopsInEveryStage) {
+    TryOn job = small_job({});
+    job.tolerance_px = 2;
+    std::vector<std::string> stages;
+    const auto add = [&](bool read) {
+        if (read)
+            stages.emplace_back("garment: read");
+        stages.insert(stages.end(),
+                      {"garment: repair", "garment: join seams", "garment: measure",
+                       "subdivide: topology", "subdivide: rates", "subdivide", "garment: frames"});
+    };
+    for (const bool read : {true, true, false, false}) // garment, body, and both as the camera sees
+        add(read);
+    tsuya::test::expect_stops_in_every_stage([&](const Progress &p) { make_try_on_scene(job, p); },
+                                             stages);
 }
 
 TEST(TryOn, FramesTheWholeFigure) {

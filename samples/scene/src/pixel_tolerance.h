@@ -8,9 +8,6 @@
 
 namespace tsuya::scene {
 
-// How meshes are divided before the camera is known, which frames what this gives.
-inline constexpr int kFramingLevel = 1;
-
 // What the camera and the lights of a scene ask of a mesh that is moved by `translate`. The points
 // are those of all meshes, as they stand in the scene; half the distance of the nearest that is in
 // the picture is taken to be free.

@@ -1,6 +1,6 @@
 #include "tsuya/scene/scene_file.h"
 
-#include "pixel_tolerance.h"
+#include "scene_meshes.h"
 #include "scene_reader.h"
 #include "tsuya/sdk/error.h"
 
@@ -35,27 +35,12 @@ Fabric load_fabric(const FabricEntry &entry) {
     return fabric;
 }
 
-/// A visible mesh as its file has it.
-struct ShownMesh {
-    const MeshEntry *entry;
-    garment::MeshFile file;
-
-    /// With its positions in the scene.
-    garment::LoadedGarment load(const garment::Options &options, const Progress &progress) const {
-        garment::LoadedGarment loaded =
-            garment::load(file, options, entry->mesh.string(), progress);
-        for (glm::dvec3 &p : loaded.surface.position)
-            p += entry->translate;
-        return loaded;
-    }
-};
-
 } // namespace
 
-SceneFile read_scene_file(const std::filesystem::path &path) {
+SceneFile read_scene_file(const std::filesystem::path &path, const Progress &progress) {
     const Document document(path);
     SceneFile file{.path = path};
-    SceneReader reader(document.root(), path.parent_path(), file);
+    SceneReader reader(document.root(), path.parent_path(), file, progress);
     reader.read();
     document.finish();
     return file;
@@ -66,21 +51,19 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
     Scene &scene = built.scene;
     for (const FabricEntry &entry : file.fabrics)
         scene.fabrics.push_back(load_fabric(entry));
-    std::vector<ShownMesh> meshes;
-    std::vector<glm::dvec3> framed;
+    SceneMeshes meshes(progress);
     for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
         for (const MeshEntry &entry : *entries) {
             if (!entry.visible)
                 continue;
-            meshes.push_back({&entry, garment::read_mesh(entry.mesh)});
-            garment::Options options = entry.options;
-            if (entry.tolerance_px)
-                options.subdivide.level = kFramingLevel;
-            garment::LoadedGarment loaded = meshes.back().load(options, progress);
-            framed.insert(framed.end(), loaded.surface.position.begin(),
-                          loaded.surface.position.end());
-            built.reports.push_back({entry.mesh, std::move(loaded.report)});
-            add_object(scene, entry.name, std::move(loaded.surface), entry.fabric);
+            built.reports.push_back({entry.mesh});
+            add_object(scene, entry.name,
+                       meshes.add({.file = garment::read_mesh(entry.mesh, progress),
+                                   .where = entry.mesh.string(),
+                                   .options = entry.options,
+                                   .tolerance_px = entry.tolerance_px,
+                                   .translate = entry.translate}),
+                       entry.fabric);
         }
     if (file.backdrop) {
         add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape), scene.fabrics.size());
@@ -89,25 +72,15 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
     scene.light_groups = file.light_groups;
     scene.rectangles = file.lights;
     scene.environment = file.environment;
-    scene.camera = file.camera ? *file.camera : frame_points(framed, file.framing);
+    scene.camera = file.camera ? *file.camera : frame_points(meshes.points(), file.framing);
     try {
         check_scene(scene);
     } catch (const Error &error) {
-        std::vector<Problem> problems = error.problems();
-        for (Problem &problem : problems)
-            problem.where = file.path.string() + ": " + problem.where;
-        throw Error(std::move(problems));
+        throw error.within(file.path.string());
     }
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const MeshEntry &entry = *meshes[m].entry;
-        if (!entry.tolerance_px)
-            continue;
-        garment::Options options = entry.options;
-        options.subdivide.view = view_of(scene, framed, *entry.tolerance_px, entry.translate);
-        garment::LoadedGarment loaded = meshes[m].load(options, progress);
-        scene.surfaces[m] = std::move(loaded.surface);
-        built.reports[m].report = std::move(loaded.report);
-    }
+    meshes.refine(scene);
+    for (std::size_t m = 0; m < built.reports.size(); ++m)
+        built.reports[m].report = meshes.report(m);
     return built;
 }
 

@@ -22,11 +22,7 @@ void SceneReader::note(const Section &section, std::string_view key, Work &&work
     try {
         work();
     } catch (const Error &error) {
-        for (const Problem &problem : error.problems()) {
-            const bool placed = problem.where.find(':') != std::string::npos;
-            section.problem(key, (placed ? problem.where + ": " : "") + problem.what,
-                            problem.accepted);
-        }
+        section.problem(key, error);
     }
 }
 
@@ -206,7 +202,7 @@ void SceneReader::read_cloth(const Section &section, MeshEntry &entry) {
 void SceneReader::read_grain(const Section &grain, MeshEntry &entry) {
     // The document knows a key once it was asked for, so the panels' names are asked for.
     note(grain, "", [&] {
-        for (const std::string &panel : garment::read_mesh(entry.mesh).mesh.panel_name)
+        for (const std::string &panel : garment::read_mesh(entry.mesh, progress_).mesh.panel_name)
             if (const auto angle = grain.number(panel, -360, 360))
                 entry.options.frames.grain[panel] = *angle * kDegree;
     });
@@ -274,12 +270,12 @@ void SceneReader::read_environment() {
     const auto section = root_.section("environment");
     if (!section)
         return;
-    Environment environment{.radiance = section->number("radiance", 0, kLargest).value_or(1),
-                            .group = group(*section, "environment"),
-                            .visible = section->flag("visible").value_or(true)};
+    Environment &environment = file_.environment.emplace(
+        Environment{.radiance = section->number("radiance", 0, kLargest).value_or(1),
+                    .group = group(*section, "environment"),
+                    .visible = section->flag("visible").value_or(true)});
     if (const auto picture = existing_file(*section, "picture", false); !picture.empty())
         note(*section, "picture", [&] { environment.picture = read_image(picture); });
-    file_.environment = std::move(environment);
 }
 
 void SceneReader::read_render() {

@@ -15,8 +15,10 @@ inline constexpr double kPlainReflectance = 0.5;
 
 class SceneReader {
   public:
-    SceneReader(Section root, std::filesystem::path folder, SceneFile &file)
-        : root_(root), folder_(std::move(folder)), file_(file) {}
+    // `progress` must outlive this.
+    SceneReader(Section root, std::filesystem::path folder, SceneFile &file,
+                const Progress &progress)
+        : root_(root), folder_(std::move(folder)), file_(file), progress_(progress) {}
 
     void read();
 
@@ -49,6 +51,7 @@ class SceneReader {
     Section root_;
     std::filesystem::path folder_;
     SceneFile &file_;
+    const Progress &progress_;
     bool names_light_ = false;
 };
 

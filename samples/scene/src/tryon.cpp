@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "pixel_tolerance.h"
+#include "scene_meshes.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/sheet.h"
@@ -141,67 +141,60 @@ void write_pictures(const SpectralImage &image, const std::string &name, const s
 
 /// A try-on with what further frames of it need.
 struct Stage {
-    TryOnScene shown;
-    garment::GarmentFrames frames;
-    garment::Options options; ///< of the garment, as they were used
+    TryOnScene shown{};
+    SceneMeshes meshes;                             ///< the garment first
+    std::vector<std::vector<glm::dvec3>> further{}; ///< shapes of the garment, in units of its file
 };
 
 /// Places of all vertices of faces in all further frames, metres.
-void add_frame_points(const garment::GarmentFrames &frames, double metres_per_unit,
-                      std::vector<glm::dvec3> &points) {
-    std::vector<bool> used(frames.first.mesh.position.size());
-    for (const std::uint32_t v : frames.first.mesh.corner_position)
+std::vector<glm::dvec3> frame_points_of(const garment::PolygonMesh &mesh,
+                                        const std::vector<std::vector<glm::dvec3>> &further,
+                                        double metres_per_unit) {
+    std::vector<bool> used(mesh.position.size());
+    for (const std::uint32_t v : mesh.corner_position)
         used[v] = true;
-    for (const std::vector<glm::dvec3> &shape : frames.further)
+    std::vector<glm::dvec3> points;
+    for (const std::vector<glm::dvec3> &shape : further)
         for (std::size_t v = 0; v < shape.size(); ++v)
             if (used[v])
                 points.push_back(metres_per_unit * shape[v]);
+    return points;
 }
 
 Stage make_stage(const TryOn &job, const Progress &progress) {
-    Stage stage;
+    Stage stage{.meshes = SceneMeshes(progress)};
     Scene &scene = stage.shown.scene;
     Fabric fabric = read_fabric(job.fabric);
-    garment::Options &options = stage.options;
-    options = {.metres_per_unit = garment::metres_per(job.unit),
-               .subdivide = {.level = job.tolerance_px ? kFramingLevel : job.level,
-                             .tolerance = job.tolerance},
-               .frames = {.invented_grain = job.invented_grain,
-                          .max_degenerate_area = job.max_degenerate_area}};
+    garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
+                             .subdivide = {.level = job.level, .tolerance = job.tolerance},
+                             .frames = {.invented_grain = job.invented_grain,
+                                        .max_degenerate_area = job.max_degenerate_area}};
     garment::Options body_options = options;
     body_options.want_frames = false;
     options.strict = job.strict;
     options.want_frames = fabric.bard.has_value();
 
-    stage.frames = garment::read_frames(job.garment, job.frames, job.morph_targets);
-    const auto load_garment = [&] {
-        garment::LoadedGarment loaded =
-            garment::load(stage.frames.first, options, job.garment.string(), progress);
-        stage.shown.report = std::move(loaded.report);
-        return std::move(loaded.surface);
-    };
-    garment::MeshFile body;
-    const auto load_body = [&] {
-        return garment::load(body, body_options, job.body.string(), progress).surface;
-    };
-    add_object(scene, "garment", load_garment(), std::move(fabric));
-    std::vector<glm::dvec3> points = scene.surfaces[0].position;
-    add_frame_points(stage.frames, options.metres_per_unit, points);
-    if (!job.body.empty()) {
-        body = garment::read_mesh(job.body);
-        add_object(scene, "body", load_body(),
+    garment::GarmentFrames frames =
+        garment::read_frames(job.garment, job.frames, job.morph_targets, progress);
+    stage.further = std::move(frames.further);
+    add_object(scene, "garment",
+               stage.meshes.add({.file = std::move(frames.first),
+                                 .where = job.garment.string(),
+                                 .options = options,
+                                 .tolerance_px = job.tolerance_px}),
+               std::move(fabric));
+    stage.meshes.add_points(
+        frame_points_of(stage.meshes.file(0).mesh, stage.further, options.metres_per_unit));
+    if (!job.body.empty())
+        add_object(scene, "body",
+                   stage.meshes.add({.file = garment::read_mesh(job.body, progress),
+                                     .where = job.body.string(),
+                                     .options = body_options,
+                                     .tolerance_px = job.tolerance_px}),
                    {.name = "body", .dye = Spectrum::constant(kBodyReflectance)});
-        const std::vector<glm::dvec3> &more = scene.surfaces[1].position;
-        points.insert(points.end(), more.begin(), more.end());
-    }
-    add_studio(job, points, scene);
-    if (job.tolerance_px) {
-        options.subdivide.view = view_of(scene, points, *job.tolerance_px, glm::dvec3(0.0));
-        body_options.subdivide.view = options.subdivide.view;
-        scene.surfaces[0] = load_garment();
-        if (!job.body.empty())
-            scene.surfaces[1] = load_body();
-    }
+    add_studio(job, stage.meshes.points(), scene);
+    stage.meshes.refine(scene);
+    stage.shown.report = stage.meshes.report(0);
     check_scene(scene);
     return stage;
 }
@@ -232,13 +225,13 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     Stage stage = make_stage(job, progress);
     Scene &scene = stage.shown.scene;
     std::optional<garment::AnimatedGarment> show;
-    if (!stage.frames.further.empty())
-        show.emplace(stage.frames.first, stage.options, job.garment.string());
+    if (!stage.further.empty())
+        show.emplace(stage.meshes.file(0), stage.meshes.options(0), job.garment.string(), progress);
     prepare_output_folder(job.output);
 
     TryOnResult result{.report = std::move(stage.shown.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
-    const std::size_t shapes = 1 + stage.frames.further.size(), count = shapes * dyes.size();
+    const std::size_t shapes = 1 + stage.further.size(), count = shapes * dyes.size();
     for (std::size_t i = 0; i < count && !result.interrupted; ++i) {
         const std::size_t frame = i / dyes.size();
         const NamedDye &dye = dyes[i % dyes.size()];
@@ -248,7 +241,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
                      (static_cast<double>(i) + fraction) / static_cast<double>(count));
         };
         if (frame > 0 && i % dyes.size() == 0)
-            scene.surfaces[0] = show->frame(stage.frames.further[frame - 1]);
+            scene.surfaces[0] = show->frame(stage.further[frame - 1]);
         if (dye.spectrum)
             scene.fabrics[0].dye = *dye.spectrum;
         const RenderResult rendered = render_try_on(scene, job.render, part);

@@ -74,8 +74,8 @@ struct SceneFile {
 
 /// Reads a scene file with what it names, but for the meshes. Throws Error with up to 20 problems
 /// at file:line:column: unknown keys, values of a wrong type or out of range, unknown names, files
-/// that are missing or wrong.
-SceneFile read_scene_file(const std::filesystem::path &path);
+/// that are missing or wrong. Interrupted where `progress` says stop.
+SceneFile read_scene_file(const std::filesystem::path &path, const Progress &progress = {});
 
 /// What a mesh file is like.
 struct MeshReport {

@@ -1,0 +1,51 @@
+#pragma once
+// The meshes of a scene, as fine as its camera needs them.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tsuya/garment/garment.h"
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya::scene {
+
+// A mesh as its file has it, and how it stands in the scene.
+struct SceneMesh {
+    garment::MeshFile file{};
+    std::string where{}; // names it in errors
+    garment::Options options{};
+    std::optional<double> tolerance_px{}; // of the scene's camera; in place of the level
+    glm::dvec3 translate{0.0};            // metres
+};
+
+// Loads meshes twice where pixels say how fine they are: first for a camera to be framed by, then
+// as that camera and the lights need them. The scene's first surfaces are these, in their order.
+class SceneMeshes {
+  public:
+    explicit SceneMeshes(const Progress &progress) : progress_(progress) {}
+
+    // Loads a mesh, with a tolerance in pixels as level 1 divides it. Throws as garment::load.
+    Surface add(SceneMesh mesh);
+    // Further points that the camera frames.
+    void add_points(const std::vector<glm::dvec3> &points);
+    // All points of the meshes as they were loaded first, in the scene.
+    const std::vector<glm::dvec3> &points() const { return points_; }
+    // Loads meshes with a tolerance again, for the camera and the lights of the scene.
+    void refine(Scene &scene);
+
+    // Options and report of mesh `m`, as it was loaded last.
+    const garment::Options &options(std::size_t m) const { return meshes_[m].options; }
+    const garment::Report &report(std::size_t m) const { return reports_[m]; }
+    const garment::MeshFile &file(std::size_t m) const { return meshes_[m].file; }
+
+  private:
+    garment::LoadedGarment load(const SceneMesh &mesh) const;
+
+    Progress progress_;
+    std::vector<SceneMesh> meshes_;
+    std::vector<garment::Report> reports_;
+    std::vector<glm::dvec3> points_;
+};
+
+} // namespace tsuya::scene
