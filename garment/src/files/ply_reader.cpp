@@ -1,5 +1,6 @@
 // PLY and OFF through OpenMesh. Its readers allocate what the header declares and read on behind
-// the end of a file, so the header is held against the bytes first, and the end of the text throws.
+// the end of a file, so the counts of the header are checked against the file size first, and the
+// end of the text throws.
 
 #include <array>
 #include <charconv>

@@ -7,7 +7,7 @@
 namespace tsuya::garment {
 namespace {
 
-/// Limit points along each side of a sub-face that are held against the triangles.
+/// Limit points along each side of a sub-face that are compared with the triangles.
 constexpr int kSubFaceGrid = 6;
 
 double segment_distance(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b) {

@@ -8,7 +8,7 @@
 
 namespace tsuya::garment {
 
-/// Points of a triangle at which it is held against the limit surface, barycentric.
+/// Points of a triangle at which it is compared with the limit surface, barycentric.
 inline constexpr std::array<std::array<double, 3>, 4> kMeasuringPoints{
     {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.5, 0.5, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}}};
 

@@ -200,7 +200,7 @@ void SceneReader::read_cloth(const Section &section, MeshEntry &entry) {
 }
 
 void SceneReader::read_grain(const Section &grain, MeshEntry &entry) {
-    // The document knows a key once it was asked for, so the panels' names are asked for.
+    // The document knows a key once it was read, so the panels' names are read.
     note(grain, "", [&] {
         for (const std::string &panel : garment::read_mesh(entry.mesh, progress_).mesh.panel_name)
             if (const auto angle = grain.number(panel, -360, 360))

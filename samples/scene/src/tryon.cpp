@@ -105,7 +105,7 @@ void add_studio(const TryOn &job, const std::vector<glm::dvec3> &points, Scene &
     light(scene, bounds, job.azimuth_deg * kDegree);
 }
 
-/// Turns the picture `object`, where the garment is 1, into the garment's coverage: 1 where every
+/// Turns the AOV `object`, where the garment is 1, into the garment's coverage: 1 where every
 /// sample met it, else 0.
 void keep_coverage(SpectralImage &image) {
     for (std::size_t i = 0; i < image.aovs.size(); ++i)

@@ -20,7 +20,7 @@
 
 namespace tsuya::scene {
 
-/// How good the picture of a try-on is unless something else is asked for: the mean standard error
+/// Default quality of the picture of a try-on: the mean standard error
 /// of each part of it, as a share of its value, and the most samples that a pixel may take.
 inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.035};
 
@@ -62,9 +62,9 @@ struct TryOnScene {
 };
 
 /// The studio of a try-on with the fabric's own dye: the camera in front frames the garment, a
-/// softbox from the left of the picture is the light group `key`, a weak even light from everywhere
-/// is the group `fill`. Everything scales with the garment. The garment's fabric is the first.
-/// Throws Error for files that cannot be read, and Interrupted.
+/// softbox from the left of the picture is the light group `key`, a weak uniform light from
+/// everywhere is the group `fill`. Everything scales with the garment. The garment's fabric is the
+/// first. Throws Error for files that cannot be read, and Interrupted.
 TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
 
 /// Renders the scene of a try-on with one AOV, `coverage`: 1 where the garment fills
@@ -82,7 +82,7 @@ struct TryOnResult {
 };
 
 /// Renders once for each dye, and writes into the output folder `DYE.exr` (light transport, with
-/// the picture `coverage` of the garment), `DYE-LAMP.png` for each lamp, and `sheet.png`. With
+/// the AOV `coverage` of the garment), `DYE-LAMP.png` for each lamp, and `sheet.png`. With
 /// frames, each dye and frame gives `DYE-0000.exr` and `DYE-LAMP-0000.png`, and no sheet. Where
 /// progress.stop becomes true, what is done is still written, without the sheet. Throws Error with
 /// nothing written for any wrong value of the job.

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A TOML file read with care: every value is asked for by name, every problem has its line and
-/// column, and what nobody asked for is an unknown key.
+/// A TOML file: every value is read by name, every problem has its line and column, and a key that
+/// nobody reads is an unknown key.
 
 #include <filesystem>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a render makes: lamp-free light transport T, K channels per light group (THEORY: light
+/// What a render makes: lamp-free light transport T, K channels per light group (light
 /// transport is linear and acts on each wavelength by itself, so lamps are applied afterwards).
 
 #include <map>
