@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "command.h"
 #include "json.h"
 #include "tsuya/garment/report.h"
 
@@ -17,6 +18,18 @@ std::atomic<bool> stop{false}; // a signal handler can only reach something glob
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 std::atomic<bool> snapshot{false};
+
+void handle_signals(void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        sigaction(signal, nullptr, &before);
+        if (signal != SIGHUP || before.sa_handler != SIG_IGN)
+            sigaction(signal, &action, nullptr);
+    }
+}
 
 std::string text_of(const Problem &problem) {
     return (problem.where.empty() ? "" : problem.where + ": ") + problem.what +
@@ -37,15 +50,11 @@ ProgressMode parse_progress_mode(const std::string &name) {
 }
 
 void watch_signals() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { stop = true; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction before {};
-        sigaction(signal, nullptr, &before);
-        if (signal != SIGHUP || before.sa_handler != SIG_IGN)
-            sigaction(signal, &action, nullptr);
-    }
+    handle_signals([](int) {
+        constexpr std::string_view kText = "\ntsuya: interrupted\n";
+        [[maybe_unused]] const auto told = write(STDERR_FILENO, kText.data(), kText.size());
+        _exit(kInterrupted);
+    });
 }
 
 std::atomic<bool> &watch_snapshot_signal() {
@@ -57,6 +66,7 @@ std::atomic<bool> &watch_snapshot_signal() {
 }
 
 Progress Console::progress() {
+    handle_signals([](int) { stop = true; });
     Progress progress{.stop = &stop};
     if (mode_ != ProgressMode::off)
         progress.report = [this](std::string_view stage, double fraction) {

@@ -21,8 +21,9 @@ enum class ProgressMode { bar, plain, json, off };
 /// `auto` (a bar where stderr is a terminal, else off), `plain`, `json`, `off`.
 ProgressMode parse_progress_mode(const std::string &name);
 
-/// Sets the flag that `Console::progress` hands out when SIGINT, SIGTERM or SIGHUP arrives; a
-/// second one of its kind ends the process. SIGHUP stays ignored where it is (nohup).
+/// SIGINT, SIGTERM or SIGHUP end the process at once with kInterrupted, until `Console::progress`
+/// is called: for commands that have nothing to save, whose files appear complete or not at all.
+/// SIGHUP stays ignored where it is (nohup).
 void watch_signals();
 
 /// Lets SIGUSR1 set the flag that is returned, again and again.
@@ -31,7 +32,8 @@ std::atomic<bool> &watch_snapshot_signal();
 class Console {
   public:
     void set_mode(ProgressMode mode) { mode_ = mode; }
-    /// Progress that is told on stderr and stopped by signals. The console must outlive it.
+    /// Progress that is told on stderr. From now on the signals set its stop flag; a second one of
+    /// its kind ends the process. The console must outlive it.
     Progress progress();
 
     void error(const Problem &problem);

@@ -5,7 +5,10 @@
 #include <numeric>
 #include <sstream>
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -288,6 +291,27 @@ TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
     const SpectralImage expected = read_spectral_exr(whole);
     EXPECT_EQ(read_spectral_exr(parts).transport, expected.transport);
     EXPECT_NE(partial.transport, expected.transport); // or nothing was interrupted
+}
+
+// A table that never comes: the command waits for it when the signal arrives.
+TEST(Program, LeavesAtOnceWhereNothingIsToBeSaved) {
+    const Scratch scratch;
+    const fs::path pipe = scratch / "table.csv", fabric = scratch / "f.fabric.toml";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        int writer = -1;
+        const Outcome left = run_program({"fabric", "fit", pipe.string(), "-o", fabric.string()},
+                                         scratch.folder(), [&](const std::string &) {
+                                             if (writer >= 0)
+                                                 return 0;
+                                             writer = open(pipe.c_str(), O_WRONLY | O_NONBLOCK);
+                                             return writer >= 0 ? signal : 0;
+                                         });
+        close(writer);
+        EXPECT_EQ(left.status, 3) << left.err;
+        EXPECT_NE(left.err.find("tsuya: interrupted"), std::string::npos) << left.err;
+        EXPECT_FALSE(fs::exists(fabric));
+    }
 }
 
 TEST(Program, ResumesAKilledRenderBitIdentically) {
