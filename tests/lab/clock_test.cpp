@@ -79,5 +79,30 @@ TEST(SimulatedLine, RecordsChangesOnly) {
     EXPECT_EQ(line.transitions(), (std::vector<Transition>{{2ms, true}, {5ms, false}}));
 }
 
+TEST(SimulatedInput, WaitsForTheEdgeThatIsAskedFor) {
+    VirtualClock clock;
+    SimulatedInput line("interlock", clock, true);
+    clock.at(3ms, [&] { line.change(true); }); // no change
+    clock.at(5ms, [&] { line.change(false); });
+    clock.at(9ms, [&] { line.change(true); });
+    EXPECT_EQ(line.wait(Edge::to_active, 1s, nullptr), (EdgeEvent{9ms, true}));
+    EXPECT_EQ(clock.now(), 9ms);
+    clock.at(20ms, [&] { line.change(false); });
+    EXPECT_EQ(line.wait(Edge::any, 15ms, nullptr), std::nullopt);
+    EXPECT_EQ(clock.now(), 15ms);
+    clock.advance(10ms);
+    EXPECT_FALSE(line.active());
+    EXPECT_EQ(line.wait(Edge::any, 0ms, nullptr), (EdgeEvent{20ms, false})); // came before the call
+}
+
+TEST(SimulatedInput, AStopEndsTheWait) {
+    VirtualClock clock;
+    SimulatedInput line("busy", clock);
+    std::atomic<bool> stop{false};
+    clock.at(3s, [&] { stop = true; });
+    EXPECT_EQ(line.wait(Edge::any, 1h, &stop), std::nullopt);
+    EXPECT_LE(clock.now(), 3s + SteadyClock::kStopLatency);
+}
+
 } // namespace
 } // namespace tsuya::lab

@@ -1,11 +1,13 @@
 // Pulses on real lines until the train ends or a signal comes: what gpio_guest.sh watches.
 // gpio_pulses CHIP SHUTTER LAMP WIDTH_MS PERIOD_MS COUNT [low]
+#include "tsuya/lab/progress_relay.h"
 #include "tsuya/lab/pulse_job.h"
 #include "tsuya/sdk/error.h"
 
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 // [doc:pulses]
@@ -18,15 +20,22 @@ int run(const tsuya::lab::PulseJob &job) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
         std::signal(signal, [](int) { stop = true; });
     std::signal(SIGPIPE, SIG_IGN);
+    // On a thread of its own: a paused terminal holds up no pulse.
+    tsuya::lab::ProgressRelay relay(
+        {.report =
+             [](std::string_view stage, double fraction) {
+                 std::fprintf(stderr, "%s %.0f %%\n", std::string(stage).c_str(), 100 * fraction);
+             },
+         .stop = &stop});
     try {
-        const tsuya::lab::PulseReport report = run_pulse_job(job, {.stop = &stop});
+        const tsuya::lab::PulseReport report = run_pulse_job(job, relay.progress());
         std::printf("%zu pulses, %.3f ms late at most\n", report.pulses.size(),
                     static_cast<double>(report.largest_late.count()) * 1e-6);
         return 0;
     } catch (const tsuya::Error &error) { // lamp and shutter are off here, too
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
-    } catch (const tsuya::Interrupted &interrupted) {
+    } catch (const tsuya::Interrupted &interrupted) { // and here
         std::fprintf(stderr, "%s\n", interrupted.what());
         return 3;
     }

@@ -1,12 +1,13 @@
 #!/bin/bash
 # Lamp and shutter on a real GPIO character device, in a small virtual machine.
-# gpio_test.sh PROGRAM GUEST_SCRIPT
+# gpio_test.sh GPIO_PULSES GPIO_WATCH GUEST_SCRIPT
 # TSUYA_GPIOBED names the folder of `run-with-gpio`; without it, or where that cannot run, the test
 # is skipped (status 77).
 set -euo pipefail
 
 program=$1
-guest=$2
+watch=$2
+guest=$3
 if [ -z "${TSUYA_GPIOBED:-}" ]; then
     echo "skipped: TSUYA_GPIOBED does not name the folder of run-with-gpio"
     exit 77
@@ -16,8 +17,11 @@ if ! "$bed" --check; then
     echo "skipped: $bed cannot run here"
     exit 77
 fi
-"$bed" --warp --lines 8 --name 0=lamp --name 1=shutter --hog 5=held --with "$program=/gpio_pulses" \
-    --with "$guest=/gpio_guest.sh" -- sh /gpio_guest.sh /gpio_pulses
+# Virtual time: load on this computer does not show in the times.
+"$bed" --warp --timeout 300 --lines 8 --label board --name 0=lamp --name 1=shutter \
+    --name 2=interlock --name 3=twice --hog 5=held --chip spare:4:0=twice,1=spare_lamp --with "$program=/gpio_pulses" \
+    --with "$watch=/gpio_watch" --with "$guest=/gpio_guest.sh" -- \
+    sh /gpio_guest.sh /gpio_pulses /gpio_watch
 
 # A user outside the device's group is told which group it is.
 if said=$("$bed" --lines 2 --name 0=lamp --name 1=shutter --as user -- \

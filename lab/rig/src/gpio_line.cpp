@@ -1,11 +1,14 @@
 #include "tsuya/lab/gpio_line.h"
 
+#include "gpio_places.h"
 #include "gpiod_api.h"
-#include "tsuya/sdk/error.h"
+#include "tsuya/lab/clock.h"
 
-#include <charconv>
-#include <optional>
-#include <system_error>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <poll.h>
 
 namespace tsuya::lab {
 
@@ -13,119 +16,83 @@ struct GpioLine::Held {
     std::unique_ptr<gpiod_api::Request> request;
 };
 
+struct GpioInput::Held {
+    std::unique_ptr<gpiod_api::Request> request;
+    SteadyClock clock{};
+};
+
 namespace {
 
 constexpr const char *kConsumer = "tsuya";
 
-struct Place {
-    std::string chip{};
-    unsigned offset = 0;
-    std::string consumer{};
-};
-
-/// An Error that says what to do about the system's answer.
-Error system_problem(const std::string &what, const std::string &where,
-                     const std::system_error &error, const std::string &consumer = "") {
-    const std::error_code code = error.code();
-    std::string accepted;
-    if (code == std::errc::permission_denied || code == std::errc::operation_not_permitted)
-        accepted = "a user of the group that owns the device, usually `gpio`";
-    else if (code == std::errc::device_or_resource_busy)
-        accepted = "a line that no other program holds" +
-                   (consumer.empty() ? "" : "; this one is held by '" + consumer + "'");
-    return Error({.what = what + ": " + code.message(), .where = where, .accepted = accepted});
-}
-
-std::vector<gpiod_api::LineInfo> lines_of(const std::string &chip) {
+/// Takes the line and tells its name.
+std::unique_ptr<gpiod_api::Request> take(const GpioLineSettings &settings, bool output,
+                                         std::string &name) {
+    const GpioPlace place = find_gpio_line(settings);
+    name = place.chip + ':' + settings.line;
     try {
-        return gpiod_api::lines(chip);
+        return gpiod_api::request({.path = place.path,
+                                   .offset = place.offset,
+                                   .output = output,
+                                   .active_low = settings.active_low,
+                                   .drive = settings.drive,
+                                   .bias = settings.bias},
+                                  kConsumer);
     } catch (const std::system_error &error) {
-        if (error.code() == std::errc::no_such_file_or_directory)
-            throw Error({.what = "there is no such GPIO chip",
-                         .where = chip,
-                         .accepted = gpiod_api::chips().empty()
-                                         ? "a computer with GPIO; this one has no chip"
-                                         : accepted_names(chip, gpiod_api::chips())});
-        throw system_problem("the GPIO chip cannot be opened", chip, error);
+        throw gpio_error("the GPIO line cannot be taken as " +
+                             std::string(output ? "output" : "input"),
+                         name, error, place.consumer);
     }
 }
 
-std::optional<unsigned> as_offset(const std::string &text) {
-    unsigned offset = 0;
-    const char *end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(text.data(), end, offset);
-    if (text.empty() || error != std::errc{} || last != end)
-        return std::nullopt;
-    return offset;
-}
-
-/// The places on one chip where the line could be: by name, or else by offset.
-std::vector<Place> places_on(const std::string &chip, const std::string &line,
-                             std::vector<std::string> &names) {
-    const std::vector<gpiod_api::LineInfo> lines = lines_of(chip);
-    std::vector<Place> found;
-    for (unsigned offset = 0; offset < lines.size(); ++offset) {
-        if (lines[offset].name == line)
-            found.push_back({chip, offset, lines[offset].consumer});
-        if (!lines[offset].name.empty())
-            names.push_back(lines[offset].name);
+/// Calls `use`; a failure of the system becomes an Error.
+template <typename Use> auto translated(const char *what, const std::string &name, const Use &use) {
+    try {
+        return use();
+    } catch (const std::system_error &error) {
+        throw gpio_error(what, name, error);
     }
-    if (const auto offset = as_offset(line); found.empty() && offset && *offset < lines.size())
-        found.push_back({chip, *offset, lines[*offset].consumer});
-    return found;
 }
 
-std::string accepted_lines(const std::string &line, const std::vector<std::string> &names) {
-    return names.empty() ? "an offset: no line here has a name" : accepted_names(line, names);
+/// Whether there is an edge to read within the time. Throws std::system_error if the device is
+/// gone, which only a new call of poll() notices: the kernel wakes nobody up.
+bool edge_within(int descriptor, std::chrono::nanoseconds time) {
+    pollfd watched{.fd = descriptor, .events = POLLIN, .revents = 0};
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
+    const timespec timeout{seconds.count(), (time - seconds).count()};
+    if (ppoll(&watched, 1, &timeout, nullptr) <= 0)
+        return false;
+    if ((watched.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0)
+        throw std::system_error(std::make_error_code(std::errc::no_such_device));
+    return true;
 }
 
-Place find(const GpioLineSettings &settings) {
-    if (settings.line.empty())
-        throw Error({.what = "no GPIO line was named",
-                     .where = settings.chip,
-                     .accepted = "a line's name or offset"});
-    if (settings.chip.empty() && as_offset(settings.line))
-        throw Error({.what = "an offset needs a chip",
-                     .where = settings.line,
-                     .accepted = "a chip such as gpiochip0, or a line's name"});
-    std::vector<std::string> chips{settings.chip};
-    if (settings.chip.empty())
-        chips = gpiod_api::chips();
-    if (chips.empty())
-        throw Error({.what = "this computer has no GPIO chip",
-                     .where = settings.line,
-                     .accepted = "a computer with GPIO, or the simulated line"});
-    std::vector<std::string> names;
-    std::vector<Place> found;
-    for (const std::string &chip : chips)
-        for (Place &place : places_on(chip, settings.line, names))
-            found.push_back(std::move(place));
-    const std::string where = settings.chip.empty() ? settings.line : settings.chip;
-    if (found.empty())
-        throw Error({.what = "there is no GPIO line '" + settings.line + "'",
-                     .where = where,
-                     .accepted = accepted_lines(settings.line, names)});
-    if (found.size() > 1)
-        throw Error(
-            {.what = std::to_string(found.size()) + " GPIO lines are named '" + settings.line + "'",
-             .where = where,
-             .accepted = "chip and offset, such as " + found[0].chip + " and " +
-                         std::to_string(found[0].offset)});
-    return found[0];
+bool is_of(Edge edge, bool active) {
+    return edge == Edge::any || active == (edge == Edge::to_active);
 }
 
 } // namespace
 
-GpioLine::GpioLine(const GpioLineSettings &settings) : held_(std::make_unique<Held>()) {
-    const Place place = find(settings);
-    name_ = place.chip + ':' + settings.line;
-    try {
-        held_->request =
-            gpiod_api::request(place.chip, place.offset, settings.active_low, kConsumer);
-    } catch (const std::system_error &error) {
-        throw system_problem("the GPIO line cannot be taken as output", name_, error,
-                             place.consumer);
+void check_gpio_lines(std::span<const NamedGpioLine> lines) {
+    Problems problems;
+    std::map<std::pair<std::string, unsigned>, std::string> roles;
+    for (const NamedGpioLine &line : lines) {
+        try {
+            const GpioPlace place = find_gpio_line(line.settings);
+            const auto [at, fresh] = roles.emplace(std::pair(place.path, place.offset), line.role);
+            problems.need(fresh,
+                          "is the same line as " + at->second + ", number " +
+                              std::to_string(place.offset) + " of " + place.chip,
+                          line.role, "another line");
+        } catch (const Error &error) {
+            problems.add(error.within(line.role));
+        }
     }
+    problems.throw_if_any();
+}
+
+GpioLine::GpioLine(const GpioLineSettings &settings) : held_(std::make_unique<Held>()) {
+    held_->request = take(settings, true, name_);
 }
 
 GpioLine::~GpioLine() {
@@ -136,24 +103,61 @@ GpioLine::~GpioLine() {
 }
 
 void GpioLine::set(bool active) {
-    try {
-        held_->request->set(active);
-    } catch (const std::system_error &error) {
-        throw system_problem("the GPIO line cannot be set", name_, error);
-    }
+    translated("the GPIO line cannot be set", name_, [&] { held_->request->set(active); });
 }
 
-std::vector<GpioLineInfo> gpio_lines() {
-    std::vector<GpioLineInfo> infos;
-    for (const std::string &chip : gpiod_api::chips()) {
+void GpioLine::check() {
+    translated("the GPIO line is gone", name_, [&] { held_->request->get(); });
+}
+
+GpioInput::GpioInput(const GpioLineSettings &settings) : held_(std::make_unique<Held>()) {
+    held_->request = take(settings, false, name_);
+}
+
+GpioInput::~GpioInput() = default;
+
+bool GpioInput::active() {
+    return translated("the GPIO line cannot be read", name_, [&] { return held_->request->get(); });
+}
+
+std::optional<EdgeEvent> GpioInput::wait(Edge edge, std::chrono::nanoseconds deadline,
+                                         const std::atomic<bool> *stop) {
+    return translated("the GPIO line cannot be watched", name_, [&]() -> std::optional<EdgeEvent> {
+        while (!(stop && stop->load())) {
+            const auto left = std::max(deadline - held_->clock.now(), std::chrono::nanoseconds(0));
+            if (edge_within(held_->request->descriptor(),
+                            std::min<std::chrono::nanoseconds>(left, SteadyClock::kStopLatency))) {
+                const EdgeEvent event = held_->request->read_edge();
+                if (is_of(edge, event.active))
+                    return event;
+            } else if (left <= std::chrono::nanoseconds(0)) {
+                return std::nullopt;
+            }
+        }
+        return std::nullopt;
+    });
+}
+
+GpioListing gpio_lines() {
+    gpiod_api::need_library();
+    GpioListing listing;
+    for (const std::string &path : gpio_chip_paths()) {
+        const std::string chip = path.substr(path.rfind('/') + 1);
         try {
-            const std::vector<gpiod_api::LineInfo> lines = gpiod_api::lines(chip);
-            for (unsigned offset = 0; offset < lines.size(); ++offset)
-                infos.push_back({chip, offset, lines[offset].name, lines[offset].consumer});
-        } catch (const std::system_error &) { // not ours to open
+            const gpiod_api::ChipInfo info = gpiod_api::chip_info(path);
+            for (unsigned offset = 0; offset < info.lines.size(); ++offset)
+                listing.lines.push_back({.chip = chip,
+                                         .label = info.label,
+                                         .offset = offset,
+                                         .name = info.lines[offset].name,
+                                         .consumer = info.lines[offset].consumer,
+                                         .output = info.lines[offset].output});
+        } catch (const std::system_error &error) {
+            const Error why = gpio_error("the GPIO chip cannot be opened", chip, error);
+            listing.unreadable.push_back(why.problems()[0]);
         }
     }
-    return infos;
+    return listing;
 }
 
 } // namespace tsuya::lab

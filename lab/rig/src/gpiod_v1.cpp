@@ -3,21 +3,50 @@
 
 #include <gpiod.hpp>
 
-#include <algorithm>
-#include <filesystem>
-
 namespace tsuya::lab::gpiod_api {
 namespace {
 
+std::bitset<32> flags_of(const RequestSettings &settings) {
+    std::bitset<32> flags;
+    if (settings.active_low)
+        flags |= gpiod::line_request::FLAG_ACTIVE_LOW;
+    if (settings.output && settings.drive == Drive::open_drain)
+        flags |= gpiod::line_request::FLAG_OPEN_DRAIN;
+    if (settings.output && settings.drive == Drive::open_source)
+        flags |= gpiod::line_request::FLAG_OPEN_SOURCE;
+    switch (settings.bias) {
+    case Bias::as_is:
+        break;
+    case Bias::disabled:
+        flags |= gpiod::line_request::FLAG_BIAS_DISABLE;
+        break;
+    case Bias::pull_up:
+        flags |= gpiod::line_request::FLAG_BIAS_PULL_UP;
+        break;
+    case Bias::pull_down:
+        flags |= gpiod::line_request::FLAG_BIAS_PULL_DOWN;
+        break;
+    }
+    return flags;
+}
+
 class RequestV1 final : public Request {
   public:
-    RequestV1(const std::string &chip, unsigned offset, bool active_low,
-              const std::string &consumer)
-        : chip_(chip), line_(chip_.get_line(offset)) {
-        const auto flags = active_low ? gpiod::line_request::FLAG_ACTIVE_LOW : std::bitset<32>{};
-        line_.request({consumer, gpiod::line_request::DIRECTION_OUTPUT, flags}, 0);
+    RequestV1(const RequestSettings &settings, const std::string &consumer)
+        : chip_(settings.path, gpiod::chip::OPEN_BY_PATH), line_(chip_.get_line(settings.offset)) {
+        line_.request({consumer,
+                       settings.output ? gpiod::line_request::DIRECTION_OUTPUT
+                                       : gpiod::line_request::EVENT_BOTH_EDGES,
+                       flags_of(settings)},
+                      0);
     }
     void set(bool active) override { line_.set_value(active ? 1 : 0); }
+    bool get() override { return line_.get_value() != 0; }
+    int descriptor() override { return line_.event_get_fd(); }
+    EdgeEvent read_edge() override {
+        const gpiod::line_event event = line_.event_read();
+        return {event.timestamp, event.event_type == gpiod::line_event::RISING_EDGE};
+    }
 
   private:
     gpiod::chip chip_; // released with its last reference
@@ -26,34 +55,24 @@ class RequestV1 final : public Request {
 
 } // namespace
 
-// Not gpiod::make_chip_iter(), which gives up at the first chip that may not be opened.
-std::vector<std::string> chips() {
-    std::vector<std::string> names;
-    std::error_code unreadable;
-    for (const auto &entry : std::filesystem::directory_iterator("/dev", unreadable))
-        if (const std::string name = entry.path().filename(); name.starts_with("gpiochip"))
-            names.push_back(name);
-    std::sort(names.begin(), names.end(), [](const std::string &a, const std::string &b) {
-        return a.size() != b.size() ? a.size() < b.size() : a < b;
-    });
-    return names;
-}
+void need_library() {}
 
-std::vector<LineInfo> lines(const std::string &chip_name) {
-    const gpiod::chip chip(chip_name);
-    std::vector<LineInfo> infos;
+ChipInfo chip_info(const std::string &path) {
+    const gpiod::chip chip(path, gpiod::chip::OPEN_BY_PATH);
+    ChipInfo info{.label = chip.label()};
     for (unsigned offset = 0; offset < chip.num_lines(); ++offset) {
         const gpiod::line line = chip.get_line(offset);
         const std::string consumer = line.consumer();
         // The kernel holds some lines without a consumer's name.
-        infos.push_back({line.name(), consumer.empty() && line.is_used() ? "kernel" : consumer});
+        info.lines.push_back({.name = line.name(),
+                              .consumer = consumer.empty() && line.is_used() ? "kernel" : consumer,
+                              .output = line.direction() == gpiod::line::DIRECTION_OUTPUT});
     }
-    return infos;
+    return info;
 }
 
-std::unique_ptr<Request> request(const std::string &chip, unsigned offset, bool active_low,
-                                 const std::string &consumer) {
-    return std::make_unique<RequestV1>(chip, offset, active_low, consumer);
+std::unique_ptr<Request> request(const RequestSettings &settings, const std::string &consumer) {
+    return std::make_unique<RequestV1>(settings, consumer);
 }
 
 } // namespace tsuya::lab::gpiod_api

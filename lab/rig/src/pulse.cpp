@@ -1,5 +1,6 @@
 #include "tsuya/lab/pulse.h"
 
+#include "pulse_report.h"
 #include "tsuya/lab/off_guard.h"
 
 #include <algorithm>
@@ -18,9 +19,8 @@ std::string in_ms(nanoseconds duration) {
     return std::to_string(std::chrono::duration<double, std::milli>(duration).count()) + " ms";
 }
 
-[[noreturn]] void throw_interrupted(const PulseReport &done, int count) {
-    throw Interrupted("stopped after " + std::to_string(done.pulses.size()) + " of " +
-                      std::to_string(count) + " pulses; the lamp is off and the shutter closed");
+[[noreturn]] void throw_interrupted(const PulseReport &done, const PulseTrain &train) {
+    throw Interrupted(stopped_after(done, train));
 }
 
 /// A train under way.
@@ -48,7 +48,7 @@ void open_and_close(const Run &run, int index) {
     const nanoseconds close_at = open_at + run.train.width;
     Clock &clock = run.rig.clock;
     if (!clock.sleep_until(open_at, run.progress.stop))
-        throw_interrupted(run.report, run.train.count);
+        throw_interrupted(run.report, run.train);
     run.refuse_late(index, "would have opened", clock.now() - open_at);
     PulseTiming timing;
     run.rig.shutter.set(true);
@@ -58,33 +58,17 @@ void open_and_close(const Run &run, int index) {
     run.rig.shutter.set(false);
     timing.closed = clock.now() - run.start;
     if (!whole)
-        throw_interrupted(run.report, run.train.count);
+        throw_interrupted(run.report, run.train);
     run.refuse_late(index, "closed", timing.closed - (close_at - run.start));
     run.report.pulses.push_back(timing);
-}
-
-void summarize(const PulseTrain &train, PulseReport &report) {
-    if (report.pulses.empty())
-        return;
-    nanoseconds width{0};
-    nanoseconds late{0};
-    for (std::size_t i = 0; i < report.pulses.size(); ++i) {
-        const nanoseconds plan = static_cast<std::int64_t>(i) * train.period;
-        const nanoseconds late_open = report.pulses[i].opened - plan;
-        const nanoseconds late_close = report.pulses[i].closed - plan - train.width;
-        width += report.pulses[i].closed - report.pulses[i].opened;
-        late += late_open + late_close;
-        report.largest_late = std::max({report.largest_late, late_open, late_close});
-    }
-    const auto count = static_cast<std::int64_t>(report.pulses.size());
-    report.mean_width = width / count;
-    report.mean_late = late / (2 * count);
+    if (run.rig.on_pulse)
+        run.rig.on_pulse(timing);
 }
 
 void lit_pulses(const PulseTrain &train, const Rig &rig, const Progress &progress,
                 PulseReport &report) {
     if (progress.stopped())
-        throw_interrupted(report, train.count);
+        throw_interrupted(report, train);
     if (rig.lamp)
         rig.lamp->set(true);
     progress("warm-up", 0.0);
@@ -125,6 +109,29 @@ std::vector<Problem> problems_of(const std::exception_ptr &cause) {
 }
 
 } // namespace
+
+void summarize(const PulseTrain &train, PulseReport &report) {
+    if (report.pulses.empty())
+        return;
+    nanoseconds width{0};
+    nanoseconds late{0};
+    for (std::size_t i = 0; i < report.pulses.size(); ++i) {
+        const nanoseconds plan = static_cast<std::int64_t>(i) * train.period;
+        const nanoseconds late_open = report.pulses[i].opened - plan;
+        const nanoseconds late_close = report.pulses[i].closed - plan - train.width;
+        width += report.pulses[i].closed - report.pulses[i].opened;
+        late += late_open + late_close;
+        report.largest_late = std::max({report.largest_late, late_open, late_close});
+    }
+    const auto count = static_cast<std::int64_t>(report.pulses.size());
+    report.mean_width = width / count;
+    report.mean_late = late / (2 * count);
+}
+
+std::string stopped_after(const PulseReport &done, const PulseTrain &train) {
+    return "stopped after " + std::to_string(done.pulses.size()) + " of " +
+           std::to_string(train.count) + " pulses; the lamp is off and the shutter closed";
+}
 
 nanoseconds default_tolerance(nanoseconds width) {
     constexpr nanoseconds kLeast = std::chrono::microseconds(500);

@@ -1,8 +1,11 @@
 #include "tsuya/lab/pulse_job.h"
 
+#include "pulse_report.h"
 #include "tsuya/lab/simulated_line.h"
+#include "tsuya/lab/supervisor.h"
 #include "tsuya/sdk/error.h"
 
+#include <cstring>
 #include <optional>
 
 namespace tsuya::lab {
@@ -22,6 +25,18 @@ void check_lines(const PulseJob &job) {
     problems.throw_if_any();
 }
 
+PulseReport run_on_real_lines(const PulseJob &job, const Progress &progress) {
+    std::vector<NamedGpioLine> lines{{"shutter", job.shutter}};
+    if (job.lamp)
+        lines.push_back({"lamp", *job.lamp});
+    check_gpio_lines(lines);
+    std::optional<GpioLine> lamp;
+    if (job.lamp)
+        lamp.emplace(*job.lamp);
+    GpioLine shutter(job.shutter);
+    return run_supervised_pulses(job.train, shutter, lamp ? &*lamp : nullptr, progress);
+}
+
 } // namespace
 
 PulseReport run_pulse_job(const PulseJob &job, const Progress &progress) {
@@ -35,13 +50,40 @@ PulseReport run_pulse_job(const PulseJob &job, const Progress &progress) {
                           {.shutter = shutter, .clock = clock, .lamp = job.lamp ? &lamp : nullptr},
                           progress);
     }
-    SteadyClock clock;
-    GpioLine shutter(job.shutter);
-    std::optional<GpioLine> lamp;
-    if (job.lamp)
-        lamp.emplace(*job.lamp);
-    return run_pulses(
-        job.train, {.shutter = shutter, .clock = clock, .lamp = lamp ? &*lamp : nullptr}, progress);
+    return run_on_real_lines(job, progress);
+}
+
+PulseReport run_supervised_pulses(const PulseTrain &train, OutputLine &shutter, OutputLine *lamp,
+                                  const Progress &progress) {
+    check_pulse_train(train);
+    PulseReport report;
+    const Supervision supervision{.lines = {lamp, &shutter},
+                                  .receive = [&](std::string_view message) {
+                                      PulseTiming &timing = report.pulses.emplace_back();
+                                      std::memcpy(&timing, message.data(), sizeof timing);
+                                  }};
+    const auto work = [&](Worker &worker) {
+        run_pulses(train,
+                   {.shutter = shutter,
+                    .clock = worker.clock(),
+                    .lamp = lamp,
+                    .on_pulse =
+                        [&](const PulseTiming &timing) {
+                            worker.send({reinterpret_cast<const char *>(&timing), sizeof timing});
+                        }},
+                   worker.progress());
+    };
+    try {
+        run_supervised(supervision, work, progress);
+    } catch (const Error &error) {
+        summarize(train, report);
+        throw PulsesFailed(error.problems(), report);
+    } catch (const Interrupted &) {
+        summarize(train, report);
+        throw PulsesInterrupted(stopped_after(report, train), report);
+    }
+    summarize(train, report);
+    return report;
 }
 
 } // namespace tsuya::lab

@@ -39,4 +39,33 @@ void SimulatedLine::set(bool to_active) {
         transitions_.push_back({clock_.now(), to_active});
 }
 
+void SimulatedInput::change(bool active) {
+    if (active == active_)
+        return;
+    active_ = active;
+    changes_.push_back({clock_.now(), active});
+    changed_ = true;
+}
+
+std::optional<EdgeEvent> SimulatedInput::wait(Edge edge, std::chrono::nanoseconds deadline,
+                                              const std::atomic<bool> *stop) {
+    while (!is_set(stop)) {
+        changed_ = false;
+        for (; !changes_.empty(); changes_.pop_front()) {
+            const EdgeEvent event = changes_.front();
+            if (edge == Edge::any || event.active == (edge == Edge::to_active)) {
+                changes_.pop_front();
+                return event;
+            }
+        }
+        if (clock_.now() >= deadline)
+            break;
+        // A change ends the sleep at once, the stop flag within the slice.
+        const std::chrono::nanoseconds slice = clock_.now() + SteadyClock::kStopLatency;
+        static_cast<void>(
+            clock_.sleep_until(stop ? std::min(deadline, slice) : deadline, &changed_));
+    }
+    return std::nullopt;
+}
+
 } // namespace tsuya::lab

@@ -7,6 +7,7 @@
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/progress.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,18 +32,19 @@ std::chrono::nanoseconds default_tolerance(std::chrono::nanoseconds width);
 /// \param where put before the field's name, as in `where.width`; may be empty
 void check_pulse_train(const PulseTrain &train, const std::string &where = "");
 
-/// What is moved, and by which time. Only the shutter and the clock are needed.
-struct Rig {
-    OutputLine &shutter;
-    Clock &clock;
-    OutputLine *lamp = nullptr;
-};
-
 /// One pulse as it was: times after the planned opening of the first pulse. The line had been set
 /// when the time was read.
 struct PulseTiming {
     std::chrono::nanoseconds opened{0};
     std::chrono::nanoseconds closed{0};
+};
+
+/// What is moved, and by which time. Only the shutter and the clock are needed.
+struct Rig {
+    OutputLine &shutter;
+    Clock &clock;
+    OutputLine *lamp = nullptr;
+    std::function<void(const PulseTiming &)> on_pulse{}; ///< told of each pulse that was done
 };
 
 /// A whole train as it was.

@@ -18,9 +18,15 @@ struct PulseJob {
     bool simulate = false;
 };
 
-/// Takes the lines and runs the train. A job takes at least warm_up + (count - 1) * period + width.
-/// Throws what GpioLine and run_pulses throw; an empty name of a line, or one line for both lamp
-/// and shutter, is an Error.
+/// Takes the lines and runs the train, supervised where the lines are real. A job takes at least
+/// warm_up + (count - 1) * period + width. Throws what GpioLine and run_supervised_pulses throw; an
+/// empty name of a line, or one line for both lamp and shutter, is an Error.
 PulseReport run_pulse_job(const PulseJob &job, const Progress &progress = {});
+
+/// run_pulses() in real time in a process of its own: lamp and shutter are driven off also when
+/// that process is stopped or killed. Throws what run_supervised throws; errors and interruptions
+/// carry the pulses that were done, as those of run_pulses do. \param lamp may be null
+PulseReport run_supervised_pulses(const PulseTrain &train, OutputLine &shutter, OutputLine *lamp,
+                                  const Progress &progress = {});
 
 } // namespace tsuya::lab

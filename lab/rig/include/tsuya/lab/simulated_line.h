@@ -1,10 +1,12 @@
 #pragma once
 /// \file
-/// A rig without hardware: lines that only remember, and a clock whose sleeps take no time.
+/// A rig without hardware: outputs that only remember, inputs that a program changes, and a clock
+/// whose sleeps take no time.
 
 #include "tsuya/lab/clock.h"
 #include "tsuya/lab/line.h"
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <vector>
@@ -57,6 +59,29 @@ class SimulatedLine final : public OutputLine {
     std::string name_;
     Clock &clock_;
     std::vector<Transition> transitions_;
+};
+
+/// An input line whose changes are told by the program: call `change` from an event of the clock.
+class SimulatedInput final : public InputLine {
+  public:
+    /// \param clock stamps the changes; must outlive the line
+    SimulatedInput(std::string name, Clock &clock, bool active = false)
+        : name_(std::move(name)), clock_(clock), active_(active) {}
+
+    /// The outside world changes the line. The state that it already has is no change.
+    void change(bool active);
+
+    bool active() override { return active_; }
+    std::optional<EdgeEvent> wait(Edge edge, std::chrono::nanoseconds deadline,
+                                  const std::atomic<bool> *stop) override;
+    const std::string &name() const override { return name_; }
+
+  private:
+    std::string name_;
+    Clock &clock_;
+    bool active_;
+    std::deque<EdgeEvent> changes_;
+    std::atomic<bool> changed_{false};
 };
 
 } // namespace tsuya::lab
