@@ -314,6 +314,28 @@ TEST(Program, LeavesAtOnceWhereNothingIsToBeSaved) {
     }
 }
 
+// Its check takes longer than the second that a command may take to stop.
+TEST(Program, StopsTheCheckOfALargeMesh) {
+    const Scratch scratch;
+    std::string obj;
+    constexpr int kSide = 600;
+    for (int y = 0; y <= kSide; ++y)
+        for (int x = 0; x <= kSide; ++x)
+            obj += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 1; x <= kSide; ++x) {
+            const int a = y * (kSide + 1) + x, b = a + kSide + 1;
+            for (const int corner : {a, a + 1, b + 1, b})
+                obj += (corner == a ? "f " : " ") + std::to_string(corner);
+            obj += "\n";
+        }
+    const std::string mesh = scratch.write("grid.obj", obj).string();
+    const Outcome stopped = run_program({"garment", "check", mesh, "--progress", "json"},
+                                        scratch.folder(), once(SIGTERM, "\"garment: read\""));
+    EXPECT_EQ(stopped.status, 3) << stopped.err;
+    EXPECT_EQ(stopped.out, "");
+}
+
 TEST(Program, ResumesAKilledRenderBitIdentically) {
     const Scratch scratch;
     const std::string scene_file = write_scene(scratch);
