@@ -194,7 +194,10 @@ std::string accepted_by(const Option &option) {
 
 std::string default_of(const Option &option) {
     return std::visit(
-        []<class T>(const T *field) -> std::string {
+        [&]<class T>(const T *field) -> std::string {
+            if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
+                if (option.least && static_cast<double>(*field) < *option.least)
+                    return ""; // stands for none
             if constexpr (std::is_same_v<T, bool>)
                 return "";
             else if constexpr (std::is_integral_v<T>)
