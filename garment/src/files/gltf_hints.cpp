@@ -1,7 +1,7 @@
 #include "files/gltf_hints.h"
+#include "tsuya/sdk/angle.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace tsuya::garment {
 namespace {
@@ -83,8 +83,7 @@ std::optional<FabricHint> gltf_hint(const tinygltf::Model &model, int index) {
     if (anisotropy) {
         hint.anisotropy_strength = number_or(*anisotropy, "anisotropyStrength", 0.0);
         // [KhrAnisotropy] the rotation is counter-clockwise from the tangent; threads lie across.
-        hint.thread_angle =
-            number_or(*anisotropy, "anisotropyRotation", 0.0) + 0.5 * std::numbers::pi;
+        hint.thread_angle = number_or(*anisotropy, "anisotropyRotation", 0.0) + 0.5 * kPi;
     }
     if (sheen) {
         hint.sheen_colour = glm::vec3(vector_or<3>(*sheen, "sheenColorFactor", glm::dvec3(0.0)));

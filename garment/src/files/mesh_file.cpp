@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numbers>
 
 #include "mesh/stop.h"
 #include "tsuya/garment/gltf.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/garment/ply.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
 
-double FabricHint::grain() const { return thread_angle - 0.5 * std::numbers::pi; }
+double FabricHint::grain() const { return thread_angle - 0.5 * kPi; }
 
 const std::vector<std::string> &mesh_extensions() {
     static const std::vector<std::string> extensions{".obj", ".gltf", ".glb", ".ply", ".off"};

@@ -4,18 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/distance.h"
+
 namespace tsuya::garment {
 namespace {
 
 /// Limit points along each side of a sub-face that are compared with the triangles.
 constexpr int kSubFaceGrid = 6;
-
-double segment_distance(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b) {
-    const glm::dvec3 ab = b - a;
-    const double length2 = glm::dot(ab, ab);
-    const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-    return glm::distance(p, a + t * ab);
-}
 
 double triangle_distance(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b,
                          const glm::dvec3 &c) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "mesh/stop.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::garment {
 namespace {
@@ -87,7 +87,7 @@ void LimitCorners::inside(const LimitSurface &surface, int vertex, std::vector<W
     const PolygonMesh &mesh = surface.mesh();
     const Ring ring(surface, vertex);
     const std::size_t n = ring.size();
-    const double theta = 2.0 * std::numbers::pi / static_cast<double>(n);
+    const double theta = 2.0 * kPi / static_cast<double>(n);
     const double face_scale = 1.0 / (4.0 * eigenvalue(theta) - 1.0);
     const auto spoke = [&](std::size_t i) {
         const double angle = theta * static_cast<double>(i);
@@ -112,7 +112,7 @@ void LimitCorners::on_quad_hem(const LimitSurface &surface, int vertex,
     const PolygonMesh &mesh = surface.mesh();
     const Ring ring(surface, vertex);
     const std::size_t k = ring.size();
-    const double theta = std::numbers::pi / static_cast<double>(k);
+    const double theta = kPi / static_cast<double>(k);
     const double lambda = eigenvalue(theta), face_scale = 1.0 / (4.0 * lambda - 1.0);
     const auto spoke = [&](std::size_t i) { return std::sin(theta * static_cast<double>(i)); };
     double sum = 0.0;
@@ -148,7 +148,7 @@ void LimitCorners::on_triangle_hem(const LimitSurface &surface, int vertex,
     const PolygonMesh &mesh = surface.mesh();
     const Ring ring(surface, vertex);
     const std::size_t k = ring.size();
-    const double theta = std::numbers::pi / static_cast<double>(k);
+    const double theta = kPi / static_cast<double>(k);
     const double lambda = 0.375 + 0.25 * std::cos(theta); // [LoopScheme]
     double sum = 0.0;
     for (std::size_t i = 1; i < k; ++i) {

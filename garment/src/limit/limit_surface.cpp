@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <opensubdiv/far/topologyDescriptor.h>
 
 #include "limit/creases.h"
 #include "mesh/stop.h"
 #include "mesh/valence.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -54,7 +54,7 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
     if (!(options.fold_crease >= 0.0 && options.fold_crease <= kSharpestFold))
         throw Error({"crease " + std::to_string(options.fold_crease) + " is out of range",
                      "subdivide.fold_crease", "expected 0 to 9"});
-    if (!(options.fold_angle >= 0.0 && options.fold_angle <= std::numbers::pi))
+    if (!(options.fold_angle >= 0.0 && options.fold_angle <= kPi))
         throw Error({"angle " + std::to_string(options.fold_angle) + " is out of range",
                      "subdivide.fold_angle", "expected 0 to pi radians"});
     if (options.tolerance && !(*options.tolerance > 0.0 && std::isfinite(*options.tolerance)))

@@ -5,13 +5,10 @@
 #include "limit/face_departure.h"
 #include "limit/limit_surface.h"
 #include "limit/tessellation_rates.h"
+#include "mesh/distance.h"
 
 namespace tsuya::garment {
 namespace {
-
-double angle_between(const glm::dvec3 &a, const glm::dvec3 &b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 /// A corner of a triangle as the renderer has it.
 struct Corner {

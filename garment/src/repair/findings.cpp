@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "repair/mesh_repair.h"
@@ -123,7 +122,7 @@ constexpr double kUsualShear = 35.0 * kDegree;
 constexpr double kUsualStretch = 1.3;
 
 void find_shear(const Report &r, Findings &f) {
-    constexpr double kRight = 0.5 * std::numbers::pi;
+    constexpr double kRight = 0.5 * kPi;
     const double shear = std::max(kRight - r.warp_weft_angle.p5, r.warp_weft_angle.p95 - kRight);
     if (r.warp_weft_angle.p50 > 0.0 && shear > kUsualShear)
         f.add(Severity::note, "strong_shear",

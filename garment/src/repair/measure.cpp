@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "mesh/distance.h"
 #include "mesh/islands.h"
 #include "mesh/stop.h"
 #include "repair/mesh_repair.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya::garment {
 namespace {
@@ -68,10 +69,6 @@ Percentiles percentiles(std::vector<std::pair<double, double>> value_and_area) {
     return result;
 }
 
-double angle_between(const glm::dvec3 &a, const glm::dvec3 &b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 /// True where the UVs of the face enclose an area.
 bool has_uv_area(const PolygonMesh &mesh, std::size_t f, const FaceMeasure &m) {
     // UV area over the square of the UV perimeter below which a face has no UV area.
@@ -107,7 +104,7 @@ class PanelSums {
         const double to_up = angle_between(p_v, {0, 1, 0});
         angle_area_.resize(panel_.size());
         angle_area_[panel] += area;
-        panel_[panel].warp_to_vertical += area * std::min(to_up, std::numbers::pi - to_up);
+        panel_[panel].warp_to_vertical += area * std::min(to_up, kPi - to_up);
     }
     std::vector<PanelReport> finish() {
         for (std::size_t p = 0; p < angle_area_.size(); ++p) {

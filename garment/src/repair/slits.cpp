@@ -1,15 +1,10 @@
 // Narrow gaps that are left along seams.
 
+#include "mesh/distance.h"
 #include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
-
-double distance_to_segment(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b) {
-    const double length2 = glm::dot(b - a, b - a);
-    const double t = length2 > 0.0 ? glm::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0.0;
-    return glm::distance(p, a + t * (b - a));
-}
 
 /// True for a loop as narrow as `width`: all of its vertices but the two tips lie that near to an
 /// edge of the loop that they do not touch.
@@ -22,7 +17,7 @@ bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
     for (std::size_t i = 0; i < n && wide <= kTips; ++i) {
         bool near = false;
         for (std::size_t k = 1; k + 1 < n && !near; ++k)
-            near = distance_to_segment(loop[i], loop[(i + k) % n], loop[(i + k + 1) % n]) <= width;
+            near = segment_distance(loop[i], loop[(i + k) % n], loop[(i + k + 1) % n]) <= width;
         wide += !near;
     }
     return wide <= kTips && wide < n;

@@ -7,6 +7,7 @@
 #include "gnuplot.h"
 #include "plot_data.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/model.h"
 
 namespace tsuya::scene {
@@ -44,7 +45,7 @@ std::string points_of(const ReflectanceTable &table, const Plane &plane, int the
     std::string lines;
     for (const ReflectanceRow &row : table.rows) {
         const double across = std::abs(turn(row.phi_r, plane.phi()));
-        const bool near = across < kSameAngle, beyond = std::numbers::pi - across < kSameAngle;
+        const bool near = across < kSameAngle, beyond = kPi - across < kSameAngle;
         const bool up = row.theta_r < kSameAngle; // lies in every plane
         if (!has_light(row, theta_i * kDegree, plane.phi()) || !(near || beyond || up))
             continue;

@@ -1,4 +1,5 @@
 #include "plot_data.h"
+#include "tsuya/sdk/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +79,7 @@ glm::dvec3 direction(double theta, double phi) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-double turn(double a, double b) { return std::remainder(a - b, 2 * std::numbers::pi); }
+double turn(double a, double b) { return std::remainder(a - b, 2 * kPi); }
 
 bool has_light(const ReflectanceRow &row, double theta_i, double phi_i) {
     return std::abs(row.theta_i - theta_i) < kSameAngle &&

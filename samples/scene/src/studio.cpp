@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
@@ -21,7 +21,7 @@ struct ProfilePoint {
 std::vector<ProfilePoint> profile_of(const Cyclorama &c) {
     std::vector<ProfilePoint> profile{{-c.front, 0, 0, 1}};
     for (int i = 0; i <= kBendSegments; ++i) {
-        const double angle = 0.5 * std::numbers::pi * i / kBendSegments;
+        const double angle = 0.5 * kPi * i / kBendSegments;
         profile.push_back({c.back - c.radius + c.radius * std::sin(angle),
                            c.radius - c.radius * std::cos(angle), std::sin(angle),
                            std::cos(angle)});
@@ -109,7 +109,7 @@ RectangleLight make_light(const Softbox &box) {
                          .edge_v = v,
                          .radiance = 1,
                          .group = box.group};
-    light.radiance = box.strength * std::numbers::pi / irradiance(light, box.target, -normal);
+    light.radiance = box.strength * kPi / irradiance(light, box.target, -normal);
     return light;
 }
 
@@ -117,11 +117,11 @@ Camera frame_points(const std::vector<glm::dvec3> &points, const Framing &f) {
     need(!points.empty(), "there is nothing to frame", "camera", "expected a garment or a body");
     need(f.width > 0 && f.height > 0, "the picture has no pixels", "camera",
          "expected width and height of 1 or more");
-    need(f.vertical_angle > 0 && f.vertical_angle < std::numbers::pi, "the angle of view is wrong",
-         "camera", "expected more than 0 and less than 180 degrees");
+    need(f.vertical_angle > 0 && f.vertical_angle < kPi, "the angle of view is wrong", "camera",
+         "expected more than 0 and less than 180 degrees");
     need(f.margin >= 0 && f.margin <= 0.9, "the margin is wrong", "camera",
          "expected a share of 0 to 0.9");
-    need(std::abs(f.elevation) < 0.5 * std::numbers::pi, "the elevation is wrong", "camera",
+    need(std::abs(f.elevation) < 0.5 * kPi, "the elevation is wrong", "camera",
          "expected more than -90 and less than 90 degrees");
     const CameraAxes axes = axes_of(direction_of(f.azimuth, f.elevation), {0, 1, 0});
     const double slope_y = std::tan(0.5 * f.vertical_angle) * (1 - f.margin);

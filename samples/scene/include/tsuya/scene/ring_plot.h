@@ -3,11 +3,11 @@
 /// The reflectance of a fabric around rings of equal theta_r, models beside measurement.
 
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/reflectance_table.h"
 
@@ -18,7 +18,7 @@ struct RingPlot {
     Fabric fabric{};
     std::vector<std::string> models = {"takeda"}; ///< see model_names; one curve each
     std::optional<ReflectanceTable> against{};    ///< measured points over the curves
-    double theta_i = std::numbers::pi / 4;        ///< radians, in [0, pi/2)
+    double theta_i = kPi / 4;                     ///< radians, in [0, pi/2)
 };
 
 /// Draws, through the program gnuplot, the BRDF over phi_r at theta_r = 30 and 60 degrees, for

@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// Small measures that several rooms need.
+
+#include <cmath>
+
+#include <glm/glm.hpp>
+
+namespace tsuya::garment {
+
+/// From a point to the nearest of a segment.
+inline double segment_distance(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b) {
+    const glm::dvec3 ab = b - a;
+    const double length2 = glm::dot(ab, ab);
+    const double t = length2 > 0.0 ? glm::clamp(glm::dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
+    return glm::distance(p, a + t * ab);
+}
+
+/// Between two directions, radians, 0 to pi; exact near both ends too.
+inline double angle_between(const glm::dvec3 &a, const glm::dvec3 &b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+} // namespace tsuya::garment
