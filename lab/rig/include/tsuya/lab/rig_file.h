@@ -1,0 +1,121 @@
+#pragma once
+/// \file
+/// RIG.toml: what a measuring rig consists of, and what it may be asked to do.
+
+#include "tsuya/lab/gpio_line.h"
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tsuya::lab {
+
+using Seconds = std::chrono::duration<double>;
+
+/// What a line is for. Lamp, shutter, half_press and heartbeat are outputs, the others inputs.
+enum class LineRole { lamp, shutter, half_press, busy, interlock, estop, heartbeat };
+inline constexpr std::size_t kLineRoles = 7;
+
+/// As in the file: `half_press`.
+const char *name_of(LineRole role);
+bool is_output(LineRole role);
+
+enum class LampKind { metal_halide, tungsten, led };
+
+/// `[lamp]`
+struct RigLamp {
+    LampKind kind = LampKind::metal_halide;
+    std::string serial{};        ///< whose log is kept; may be empty
+    Seconds warm_up{900};        ///< lit before the first measurement
+    Seconds restrike{900};       ///< off before it is lit again
+    Seconds min_on{300};         ///< lit before it is turned off without need
+    Seconds hold{600};           ///< stays lit with the shutter closed while a fault is dealt with
+    std::filesystem::path log{}; ///< of strikes and hours; empty: none
+};
+
+/// `[shutter]`
+struct RigShutter {
+    Seconds min_interval{0}; ///< from one opening to the next
+    Seconds max_open{60};
+    double max_duty = 1; ///< largest share of the time that it is open, 0 to 1
+    Seconds lag{0};      ///< from the line to the blades
+};
+
+/// `[camera]`
+struct RigCamera {
+    /// Program and arguments, run without a shell, with the placeholders `{file}` and `{exposure}`.
+    /// Empty: the shutter line triggers, and pictures arrive in `watch_folder`.
+    std::vector<std::string> command{};
+    std::filesystem::path watch_folder{};
+    Seconds timeout{60};               ///< then the command's process group is killed
+    std::vector<double> exposures_s{}; ///< ascending, at least one
+    double black = 0;                  ///< DN without light
+    double saturation = 0;             ///< DN from which a pixel is clipped
+    double e_per_dn = 0;               ///< electrons a DN
+    double read_noise_e = 0;           ///< electrons, root mean square
+    int patch = 16;                    ///< pixels along the side of the patch that is averaged
+};
+
+/// The axes of a rig. With light from (theta_i, phi_i) and the camera at (theta_r, phi_r) the stage
+/// turns the cloth by -phi_r, and lamp_phi stands at phi_i - phi_r.
+enum class AxisName { lamp_theta, lamp_phi, camera, stage };
+inline constexpr std::size_t kAxes = 4;
+const char *name_of(AxisName axis);
+
+enum class AxisDrive {
+    by_operator, ///< someone is asked to turn it
+    command,     ///< a program; its status 0 means that the axis has arrived
+    grbl,        ///< a controller that speaks GRBL, on a serial port
+};
+
+/// `[axes.NAME]`
+struct RigAxis {
+    AxisDrive drive = AxisDrive::by_operator;
+    std::vector<std::string> command{}; ///< with the placeholders `{axis}` and `{deg}`
+    std::string port{};                 ///< of the controller: `/dev/ttyUSB0`
+    char letter = 'X';                  ///< of the controller's axis
+    Seconds timeout{60};                ///< of one movement
+    double zero_deg = 0;                ///< position of the drive at the angle 0
+    int sign = 1;                       ///< -1: the drive's positions fall as the angle grows
+    std::array<double, 2> limits_deg{-180, 180}; ///< positions that the drive can reach
+    Seconds settle{0};                           ///< after the arrival
+    double tolerance_deg = 0.1;                  ///< of a position
+
+    /// The drive's position at an angle of the axis.
+    double position_deg(double angle_deg) const { return zero_deg + sign * angle_deg; }
+    bool reaches(double angle_deg) const {
+        const double position = position_deg(angle_deg);
+        return position >= limits_deg[0] && position <= limits_deg[1];
+    }
+};
+
+/// `[white]`
+struct RigWhite {
+    /// The standard's reflectance: a number, or a file: a spectrum, or a TABLE.csv of the standard.
+    std::variant<double, std::filesystem::path> rho_std = 1.0;
+};
+
+/// A whole file. Paths are relative to its folder when they are read, and usable afterwards.
+struct RigFile {
+    std::map<LineRole, GpioLineSettings> lines{};
+    RigLamp lamp{};
+    RigShutter shutter{};
+    RigCamera camera{};
+    std::array<RigAxis, kAxes> axes{}; ///< by AxisName
+    double dead_cone_deg = 6;          ///< lamp and camera come no nearer to each other
+    RigWhite white{};
+
+    const RigAxis &axis(AxisName name) const { return axes[static_cast<std::size_t>(name)]; }
+};
+
+/// Reads `schema = "tsuya-rig 1"`. Throws Error with file:line:column of every problem, up to 20:
+/// an unknown key, role or name, a value out of range, a placeholder that a command lacks or does
+/// not know, a line or a controller's axis that is given twice, a file that is not there. Whether
+/// the lines exist on this computer is check_gpio_lines()'s question.
+RigFile read_rig_file(const std::filesystem::path &file);
+
+} // namespace tsuya::lab
