@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "filament_gap.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
 namespace {
@@ -122,14 +124,15 @@ std::vector<Path::Station> stretch(const Path &path, int axis, double low, doubl
     return all;
 }
 
-void add_cones(Cones &cones, const std::vector<Path::Station> &stations, double radius,
-               std::uint32_t system) {
+void add_cones(Cones &cones, const std::vector<Path::Station> &stations, const Strand &strand,
+               std::uint32_t number) {
     for (std::size_t i = 0; i < stations.size(); ++i) {
         if (i + 1 < stations.size()) {
             cones.first.push_back(static_cast<std::uint32_t>(cones.vertex.size()));
-            cones.system.push_back(static_cast<std::uint8_t>(system));
+            cones.system.push_back(static_cast<std::uint8_t>(strand.system));
+            cones.strand.push_back(number);
         }
-        cones.vertex.emplace_back(stations[i].position, radius);
+        cones.vertex.emplace_back(stations[i].position, strand.radius);
         cones.tangent.emplace_back(stations[i].tangent);
     }
 }
@@ -150,23 +153,59 @@ void add_ring(Tubes &tubes, const Path::Station &s, double radius,
     }
 }
 
-void add_tube(Tubes &tubes, const std::vector<Path::Station> &stations, double radius,
-              std::uint32_t system, const std::vector<OutlinePoint> &section) {
+void add_tube(Tubes &tubes, const std::vector<Path::Station> &stations, const Strand &strand,
+              std::uint32_t number, const std::vector<OutlinePoint> &section) {
     const auto m = static_cast<std::uint32_t>(section.size());
     tubes.ring_size = m;
     for (std::size_t i = 0; i < stations.size(); ++i) {
         const auto a = static_cast<std::uint32_t>(tubes.position.size());
-        add_ring(tubes, stations[i], radius, section);
+        add_ring(tubes, stations[i], strand.radius, section);
         if (i + 1 == stations.size())
             break;
         tubes.ring.push_back(a);
-        tubes.system.push_back(static_cast<std::uint8_t>(system));
+        tubes.system.push_back(static_cast<std::uint8_t>(strand.system));
+        tubes.strand.push_back(number);
         for (std::uint32_t k = 0; k < m; ++k) {
             const std::uint32_t p = a + k, q = a + (k + 1) % m;
             tubes.triangle.emplace_back(p, q, p + m);
             tubes.triangle.emplace_back(q + m, p + m, q);
         }
     }
+}
+
+// A filament of the repeat in the cell: one of its copies side by side.
+struct Placed {
+    std::size_t path;
+    std::vector<Path::Station> stations;
+};
+
+// All copies of a path that reach into the cell.
+void place(const Path &path, std::size_t number, int along, const glm::dvec2 &period,
+           const glm::dvec2 &whole, std::vector<Placed> &placed) {
+    const int across = 1 - along;
+    double least = 1e30, most = -1e30;
+    for (const Path::Station &s : path.station) {
+        least = std::min(least, s.position[across] - path.radius);
+        most = std::max(most, s.position[across] + path.radius);
+    }
+    const int first = static_cast<int>(std::ceil(-most / period[across]));
+    const int last = static_cast<int>(std::floor((whole[across] - least) / period[across]));
+    for (int k = first; k <= last; ++k) {
+        glm::dvec3 shift{0};
+        shift[across] = k * period[across];
+        placed.push_back(
+            {number, stretch(path, along, -path.radius, whole[along] + path.radius, shift)});
+    }
+}
+
+double gap_of(const std::vector<Path> &paths, const std::vector<Placed> &placed) {
+    std::vector<Capsule> capsules;
+    for (std::uint32_t i = 0; i < placed.size(); ++i)
+        for (std::size_t k = 0; k + 1 < placed[i].stations.size(); ++k)
+            capsules.push_back({glm::vec3(placed[i].stations[k].position),
+                                glm::vec3(placed[i].stations[k + 1].position),
+                                static_cast<float>(paths[placed[i].path].radius), i});
+    return least_gap(capsules);
 }
 
 } // namespace
@@ -204,8 +243,12 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
 FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment,
                            int section_points) {
     double radius = 0;
-    for (const Filament &f : repeat.filaments)
+    bool clear = false;
+    for (const Filament &f : repeat.filaments) {
         radius += f.radius;
+        clear = clear || repeat.optics[f.system].transmission > 0;
+    }
+    unit = radius / static_cast<double>(repeat.filaments.size());
     const double scale = static_cast<double>(repeat.filaments.size()) / radius;
     const glm::dvec2 period = repeat.size * scale;
     std::vector<Path> paths;
@@ -222,32 +265,47 @@ FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment
             top = std::max(top, static_cast<float>(s.position.z + paths.back().radius));
         }
     }
-    const glm::dvec2 whole =
-        period * glm::max(glm::dvec2(1), glm::ceil(kFlatness * (top - bottom) / period));
+    const glm::dvec2 cells =
+        glm::max(glm::dvec2(1), glm::ceil(kFlatness * (top - bottom) / period));
+    const glm::dvec2 whole = period * cells;
     size = whole;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        const Filament &f = repeat.filaments[i];
-        const FilamentOptics &optics = repeat.optics[f.system];
-        const int along = f.system == 0 ? 1 : 0, across = 1 - along;
-        double least = 1e30, most = -1e30;
-        for (const Path::Station &s : paths[i].station) {
-            least = std::min(least, s.position[across] - paths[i].radius);
-            most = std::max(most, s.position[across] + paths[i].radius);
-        }
-        const int first = static_cast<int>(std::ceil(-most / period[across]));
-        const int last = static_cast<int>(std::floor((whole[across] - least) / period[across]));
-        for (int k = first; k <= last; ++k) {
-            glm::dvec3 shift{0};
-            shift[across] = k * period[across];
-            const std::vector<Path::Station> stations =
-                stretch(paths[i], along, -paths[i].radius, whole[along] + paths[i].radius, shift);
-            if (optics.section == FilamentSection::round)
-                add_cones(cones, stations, paths[i].radius, f.system);
-            else
-                add_tube(tubes, stations, paths[i].radius, f.system,
-                         outline(optics.section, optics.corner_rounding, section_points));
-        }
+    std::vector<Placed> placed;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        place(paths[i], i, repeat.filaments[i].system == 0 ? 1 : 0, period, whole, placed);
+    if (clear)
+        separate(gap_of(paths, placed), repeat.name);
+    for (const Placed &p : placed) {
+        const std::uint32_t system = repeat.filaments[p.path].system;
+        const FilamentOptics &optics = repeat.optics[system];
+        const bool round = optics.section == FilamentSection::round;
+        const int along = system == 0 ? 1 : 0;
+        const auto number = static_cast<std::uint32_t>(strands.size());
+        strands.push_back({.system = system,
+                           .filament = static_cast<std::uint32_t>(p.path),
+                           .radius = static_cast<float>(paths[p.path].radius * thinning),
+                           .axis = along,
+                           .first_segment = static_cast<std::uint32_t>(round ? cones.first.size()
+                                                                             : tubes.ring.size()),
+                           .count = static_cast<std::uint32_t>(p.stations.size()) - 1,
+                           .per_cell = static_cast<std::uint32_t>(std::lround(
+                               static_cast<double>(paths[p.path].station.size()) * cells[along]))});
+        if (round)
+            add_cones(cones, p.stations, strands.back(), number);
+        else
+            add_tube(tubes, p.stations, strands.back(), number,
+                     outline(optics.section, optics.corner_rounding, section_points));
     }
+}
+
+void FilamentCell::separate(double found, const std::string &name) {
+    thinning = std::min(1.0, (1 + found) / (1 + kLeastGap));
+    gap = std::max(found, kLeastGap);
+    if (thinning < 1 - kMostThinning)
+        throw Error({"filaments that light goes through overlap by " +
+                         std::to_string(-found * 100) + " % of the sum of their radii",
+                     name.empty() ? "repeat" : name,
+                     "expected an overlap of at most 20 %: thinner filaments or paths clear of "
+                     "each other"});
 }
 
 } // namespace tsuya::lab

@@ -97,19 +97,18 @@ Meeting on_cone(const Cones &cones, std::uint32_t segment, const glm::vec3 &poin
             cones.system[segment],
             true,
             segment,
-            along};
+            radial};
 }
 
-Meeting on_tube(const Tubes &tubes, std::uint32_t triangle, float u, float v,
-                const glm::vec3 &point) {
+Meeting on_tube(const Tubes &tubes, const RTCHit &hit, const glm::vec3 &point) {
+    const std::uint32_t triangle = hit.primID;
+    const float u = hit.u, v = hit.v;
     const glm::uvec3 &t = tubes.triangle[triangle];
     const float w = 1 - u - v;
     const std::uint32_t segment = triangle / (2 * tubes.ring_size);
-    // Of the two triangles of a quad, one has two points on the first ring, the other one
-    const float along = triangle % 2 == 0 ? v : u + w;
     const glm::vec3 normal =
         glm::normalize(w * tubes.normal[t.x] + u * tubes.normal[t.y] + v * tubes.normal[t.z]);
-    return {point, normal, tubes.system[segment], false, segment, along};
+    return {point, normal, tubes.system[segment], false, segment, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
 }
 
 } // namespace
@@ -159,9 +158,8 @@ Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Meeting 
             continue;
         }
         const glm::vec3 point = origin + query.ray.tfar * direction;
-        meeting = query.hit.geomID == kCones
-                      ? on_cone(cell_.cones, query.hit.primID, point)
-                      : on_tube(cell_.tubes, query.hit.primID, query.hit.u, query.hit.v, point);
+        meeting = query.hit.geomID == kCones ? on_cone(cell_.cones, query.hit.primID, point)
+                                             : on_tube(cell_.tubes, query.hit, point);
         if (glm::dot(meeting.normal, direction) < 0)
             return Fate::met;
         const glm::vec3 face{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
@@ -191,41 +189,46 @@ bool FilamentScene::escapes(glm::vec3 origin, const glm::vec3 &direction) const 
     return false;
 }
 
-Meeting FilamentScene::around(const Meeting &meeting, float u) const {
-    Meeting result = meeting;
-    if (meeting.on_cone) {
-        const std::uint32_t first = cell_.cones.first[meeting.segment];
-        const glm::vec4 centre =
-            glm::mix(cell_.cones.vertex[first], cell_.cones.vertex[first + 1], meeting.along);
-        const glm::vec3 tangent = glm::normalize(
-            glm::mix(cell_.cones.tangent[first], cell_.cones.tangent[first + 1], meeting.along));
-        const glm::vec3 side = glm::cross(meeting.normal, tangent);
-        const float angle = 2 * kPiF * u;
-        result.normal = meeting.normal * std::cos(angle) + side * std::sin(angle);
-        result.point = glm::vec3(centre) + centre.w * result.normal;
-        return result;
+Fate FilamentScene::within_tube(Inside &place, const glm::vec3 &direction, float reach,
+                                Meeting &meeting, float &travelled) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    const std::uint32_t strand = cell_.tubes.strand[place.segment];
+    travelled = 0;
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Leg part = leg(place.point, direction);
+        RTCRayHit query;
+        query.ray = tsuya::detail::make_ray<RTCRay>(place.point, direction,
+                                                    std::min(part.length(), reach - travelled));
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(state_->scene, &context, &query);
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            if (reach - travelled <= part.length()) {
+                place.point += (reach - travelled) * direction;
+                travelled = reach;
+                return Fate::lost;
+            }
+            if (part.leaves())
+                return direction.z > 0 ? Fate::above : Fate::below;
+            travelled += part.side;
+            part.wrap(place.point, direction, cell_.size);
+            continue;
+        }
+        const glm::vec3 point = place.point + query.ray.tfar * direction;
+        travelled += query.ray.tfar;
+        if (query.hit.geomID == kTubes) {
+            meeting = on_tube(cell_.tubes, query.hit, point);
+            // Copies of a filament side by side are different strands with the same wall
+            const Strand &own = cell_.strands[strand];
+            const Strand &hit = cell_.strands[cell_.tubes.strand[meeting.segment]];
+            if (own.filament == hit.filament && glm::dot(meeting.face, direction) > 0)
+                return Fate::met;
+        }
+        place.point = point + kPastWall * direction;
+        travelled += kPastWall;
     }
-    const Tubes &tubes = cell_.tubes;
-    const std::uint32_t ring = tubes.ring[meeting.segment], m = tubes.ring_size;
-    const auto edge = [&](std::uint32_t k) {
-        return glm::distance(tubes.position[ring + k], tubes.position[ring + (k + 1) % m]);
-    };
-    float length = 0;
-    for (std::uint32_t k = 0; k < m; ++k)
-        length += edge(k);
-    float rest = u * length;
-    std::uint32_t k = 0;
-    for (; k + 1 < m && rest >= edge(k); ++k)
-        rest -= edge(k);
-    const float share = edge(k) > 0 ? std::min(rest / edge(k), 1.0f) : 0;
-    const std::uint32_t p = ring + k, q = ring + (k + 1) % m;
-    const auto interpolate = [&](const std::vector<glm::vec3> &v) {
-        return glm::mix(glm::mix(v[p], v[q], share), glm::mix(v[p + m], v[q + m], share),
-                        meeting.along);
-    };
-    result.point = interpolate(tubes.position);
-    result.normal = glm::normalize(interpolate(tubes.normal));
-    return result;
+    return Fate::lost;
 }
 
 } // namespace tsuya::lab

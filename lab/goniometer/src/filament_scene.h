@@ -16,7 +16,14 @@ struct Meeting {
     std::uint32_t system;
     bool on_cone;
     std::uint32_t segment; // cone or tube segment
-    float along;           // share of the segment's length
+    glm::vec3 face;        // outward normal of the shape itself, of any length
+};
+
+// A point within a filament.
+struct Inside {
+    glm::vec3 point;
+    std::uint32_t segment;
+    bool on_cone;
 };
 
 enum class Fate { met, above, below, lost };
@@ -36,9 +43,16 @@ class FilamentScene {
     // Whether a ray leaves the cloth, upwards. Filaments that share space hide each other here.
     bool escapes(glm::vec3 origin, const glm::vec3 &direction) const;
 
-    // A point somewhere on the outline of the filament that was met, at the same place along it.
-    // \param u in [0, 1)
-    Meeting around(const Meeting &meeting, float u) const;
+    // The number of a filament in cell().strands.
+    std::uint32_t strand(std::uint32_t segment, bool on_cone) const {
+        return on_cone ? cell_.cones.strand[segment] : cell_.tubes.strand[segment];
+    }
+
+    // Follows a ray within a filament to its wall, or for `reach` where that is nearer. `travelled`
+    // is how far it came; at a wall, `meeting` is where, else `place` is. Met: at the wall. Lost:
+    // not at the wall. Above, below: the ray found a crack in the wall and left the cloth.
+    Fate within(Inside &place, const glm::vec3 &direction, float reach, Meeting &meeting,
+                float &travelled) const;
 
     const FilamentCell &cell() const { return cell_; }
 
@@ -46,6 +60,10 @@ class FilamentScene {
     struct State;
     struct Leg;
     Leg leg(glm::vec3 &origin, const glm::vec3 &direction) const;
+    Fate within_cones(Inside &place, const glm::vec3 &direction, float reach, Meeting &meeting,
+                      float &travelled) const;
+    Fate within_tube(Inside &place, const glm::vec3 &direction, float reach, Meeting &meeting,
+                     float &travelled) const;
 
     FilamentCell cell_;
     std::unique_ptr<State> state_;

@@ -25,6 +25,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t kBatchesPerRound = 16; // of a light, between looks at its error
 constexpr double kSaveEvery = 30;              // seconds
+constexpr double kLeastIndex =
+    1.05; // of filaments that light goes through: views see no straight ray
 
 void check_settings(const GoniometerSettings &s) {
     Problems problems;
@@ -63,6 +65,9 @@ void check_optics(const FilamentRepeat &repeat) {
         problems.need(o.transmission >= 0 && o.transmission <= 1,
                       "the transmission is out of range", where + "transmission",
                       "expected 0 to 1");
+        problems.need(!(o.transmission > 0) || o.refractive_index >= kLeastIndex,
+                      "nothing bends the light that goes through", where + "refractive_index",
+                      "expected 1.05 or more where the transmission is above 0");
         problems.need(o.corner_rounding >= 0 && o.corner_rounding <= 1,
                       "the rounding of the corners is out of range", where + "corner_rounding",
                       "expected 0 to 1");
@@ -94,7 +99,7 @@ class Goniometer {
         : repeat_(repeat), directions_(directions), settings_(settings), progress_(progress),
           scene_(FilamentCell(repeat, settings.turn_per_segment, settings.section_points)) {
         for (const FilamentOptics &optics : repeat.optics)
-            surfaces_.emplace_back(optics);
+            matter_.emplace_back(optics);
         group_by_light();
     }
 
@@ -128,7 +133,7 @@ class Goniometer {
     const GoniometerSettings &settings_;
     const Progress &progress_;
     FilamentScene scene_;
-    std::vector<RoughSurface> surfaces_;
+    std::vector<FilamentMatter> matter_;
     std::vector<Group> groups_;
     std::vector<LightSums> lights_;
     std::uint64_t photons_ = 0, rays_ = 0;
@@ -152,7 +157,7 @@ void Goniometer::group_by_light() {
                 direction_of(directions_.pairs[row].theta_r, directions_.pairs[row].phi_r));
         lights_.push_back({0, Sums(views.size())});
         group.views.emplace(glm::vec3(direction_of(group.theta, group.phi)), std::move(views),
-                            surfaces_);
+                            matter_);
     }
 }
 
@@ -185,7 +190,7 @@ bool Goniometer::round() {
         task.sums = Sums(groups_[task.light].rows.size());
         const Random random(settings_.seed, static_cast<std::uint32_t>(task.light),
                             static_cast<std::uint32_t>(task.batch));
-        task.rays = walk(scene_, surfaces_, *groups_[task.light].views, rules, random, task.sums);
+        task.rays = walk(scene_, matter_, *groups_[task.light].views, rules, random, task.sums);
         task.done = true;
     });
     // In the order of the batches; what comes after one that is missing is made again

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/frame.h"
@@ -13,6 +14,9 @@ constexpr float kOffset = 2e-3f; // of a ray from the surface that it leaves, ra
 // Of the energy per solid angle, times the views: what makes a view dim
 constexpr double kDim = 0.001;
 constexpr float kLeastCosine = 1e-5f; // of a photon with the surface
+constexpr float kForever = std::numeric_limits<float>::infinity();
+// Of the light that comes out through one facet, in slopes: less about the normal, more beside it
+constexpr float kExitWidth = 1;
 
 // A batch has one photon in each of 128 x 64 parts of the cell, in an order in which neighbours
 // follow each other and meet the same part of the acceleration structure.
@@ -27,11 +31,20 @@ std::uint32_t every_second_bit(std::uint32_t x) {
     return (x | x >> 8) & 0x0000ffffu;
 }
 
+// On its way.
+struct Photon {
+    glm::vec3 origin, direction;
+    double energy = 1;
+    bool first = true;   // has met nothing
+    bool inside = false; // a filament
+    Inside place{};      // where, if so
+};
+
 class Walker {
   public:
-    Walker(const FilamentScene &scene, const std::vector<RoughSurface> &surfaces,
+    Walker(const FilamentScene &scene, const std::vector<FilamentMatter> &matter,
            const LightViews &light, const WalkRules &rules, Random random)
-        : scene_(scene), surfaces_(surfaces), light_(light), rules_(rules), random_(random) {}
+        : scene_(scene), matter_(matter), light_(light), rules_(rules), random_(random) {}
 
     // \param place of the start, a share of the cell
     void photon(const glm::vec2 &place, Sums &sums);
@@ -51,17 +64,28 @@ class Walker {
     static glm::vec3 outside(const Meeting &m) { return m.point + kOffset * m.normal; }
     // Adds energy per solid angle that leaves a meeting towards a view, if the view is not hidden.
     void see(const Meeting &m, std::uint32_t view, double per_sr);
+    // The same for a view that was drawn with a chance; of dim ones only some are worth a ray.
+    void see_some(const Meeting &m, std::uint32_t view, double energy, double value);
+    // One of the views, all alike.
+    std::uint32_t any_view() {
+        return static_cast<std::uint32_t>(random_.unit() *
+                                          static_cast<float>(light_.to_viewer.size()));
+    }
     // What the views see of a reflection; `from` in the surface's frame
     void connect(const Meeting &m, const Frame &frame, const glm::vec3 &from, bool first,
                  double energy);
     // What the views see of light that comes out
-    void connect_exit(const Meeting &m, double energy);
+    void connect_exit(const Meeting &m, const Frame &frame, const glm::vec3 &from, double energy);
+    // To the next meeting
+    Fate advance(Photon &photon, Meeting &meeting);
     // The next leg of the path after a meeting; false where it ends
-    bool scatter(Meeting &meeting, glm::vec3 &direction, bool first, double &energy);
+    bool reflect(const Meeting &meeting, Photon &photon);
+    bool pass(Meeting &meeting, Photon &photon);
+    bool survives(double &energy);
     void store(Sums &sums);
 
     const FilamentScene &scene_;
-    const std::vector<RoughSurface> &surfaces_;
+    const std::vector<FilamentMatter> &matter_;
     const LightViews &light_;
     const WalkRules &rules_;
     Random random_;
@@ -78,15 +102,32 @@ void Walker::see(const Meeting &m, std::uint32_t view, double per_sr) {
         seen_.push_back({view, per_sr / to.z});
 }
 
+void Walker::see_some(const Meeting &m, std::uint32_t view, double energy, double value) {
+    const double dim = kDim * static_cast<float>(light_.to_viewer.size());
+    if (value < dim) {
+        if (random_.unit() * dim >= value)
+            return;
+        value = dim;
+    }
+    see(m, view, energy * value);
+}
+
 void Walker::connect(const Meeting &m, const Frame &frame, const glm::vec3 &from, bool first,
                      double energy) {
-    const RoughSurface &surface = surfaces_[m.system];
+    const RoughSurface &surface = matter_[m.system].surface;
+    const std::optional<FilamentBody> &body = matter_[m.system].body;
     const auto views = static_cast<float>(light_.to_viewer.size());
-    const auto multiple = static_cast<float>(std::min(0.5, surface.multiple_share(from.z)));
+    double share = surface.multiple_share(from.z);
+    if (body)
+        share += body->boundary.even_share(from.z, Side::outside);
+    const auto multiple = static_cast<float>(std::min(0.5, share));
     if (random_.unit() < multiple) {
-        const auto view = static_cast<std::uint32_t>(random_.unit() * views);
+        const std::uint32_t view = any_view();
         const float mu = glm::dot(light_.to_viewer[view], m.normal);
-        see(m, view, energy * surface.multiple_per_sr(from.z, mu) * views / multiple);
+        double value = surface.multiple_per_sr(from.z, mu);
+        if (body && mu > 0)
+            value += body->boundary.even_per_sr(from.z, Side::outside, mu, Side::outside);
+        see(m, view, energy * value * views / multiple);
         return;
     }
     const ViewTree::Choice choice =
@@ -94,53 +135,88 @@ void Walker::connect(const Meeting &m, const Frame &frame, const glm::vec3 &from
               : light_.by_mirror[m.system].sample(frame.to_world({-from.x, -from.y, from.z}),
                                                   random_);
     const glm::vec3 to = frame.to_local(light_.to_viewer[choice.index]);
-    double value = surface.single_per_sr(from, to) / (choice.chance * (1 - multiple));
-    // Of views that see next to nothing, only some are worth a ray
-    const double dim = kDim * views;
-    if (value < dim) {
-        if (random_.unit() * dim >= value)
-            return;
-        value = dim;
-    }
-    see(m, choice.index, energy * value);
+    see_some(m, choice.index, energy,
+             surface.single_per_sr(from, to) / (choice.chance * (1 - multiple)));
 }
 
-void Walker::connect_exit(const Meeting &m, double energy) {
-    const auto views = static_cast<float>(light_.to_viewer.size());
-    const auto view = static_cast<std::uint32_t>(random_.unit() * views);
-    const float mu = glm::dot(light_.to_viewer[view], m.normal);
-    if (mu > 0)
-        see(m, view, energy * surfaces_[m.system].exit().per_sr(mu) * views);
+void Walker::connect_exit(const Meeting &m, const Frame &frame, const glm::vec3 &from,
+                          double energy) {
+    const RoughDielectric &boundary = matter_[m.system].body->boundary;
+    const auto even = static_cast<float>(std::min(0.5, boundary.even_share(from.z, Side::inside)));
+    if (random_.unit() < even) {
+        const std::uint32_t view = any_view();
+        const float mu = glm::dot(light_.to_viewer[view], m.normal);
+        if (mu > 0)
+            see(m, view,
+                energy * boundary.even_per_sr(from.z, Side::inside, mu, Side::outside) *
+                    static_cast<float>(light_.to_viewer.size()) / even);
+        return;
+    }
+    if (!boundary.passes(from, Side::inside))
+        return;
+    const ViewTree::Choice choice = light_.by_exit[m.system].sample(
+        frame.to_world(boundary.refracted(from, Side::inside)), random_);
+    const glm::vec3 to = frame.to_local(light_.to_viewer[choice.index]);
+    see_some(m, choice.index, energy,
+             boundary.through_per_sr(from, to, Side::inside) / (choice.chance * (1 - even)));
 }
 
-bool Walker::scatter(Meeting &meeting, glm::vec3 &direction, bool first, double &energy) {
-    const RoughSurface &surface = surfaces_[meeting.system];
-    const Frame frame = make_frame(meeting.normal);
-    glm::vec3 from = frame.to_local(-direction);
-    from.z = std::max(from.z, kLeastCosine);
-    connect(meeting, frame, from, first, energy);
-    const RoughSurface::Reflection reflection = surface.sample(from, random_);
-    const double enters = (1 - reflection.weight) * surface.transmission();
-    const double all = reflection.weight + enters;
-    direction = frame.to_world(reflection.direction);
-    if (enters > 0) {
-        const Meeting exit = scene_.around(meeting, random_.unit());
-        connect_exit(exit, energy * enters);
-        if (random_.unit() * all >= reflection.weight) {
-            const double mu = surface.exit().sample(random_);
-            const double r = std::sqrt(std::max(0.0, 1 - mu * mu));
-            const double phi = 2 * kPi * random_.unit();
-            meeting = exit;
-            direction = make_frame(exit.normal)
-                            .to_world(glm::vec3(r * std::cos(phi), r * std::sin(phi), mu));
-        }
-    }
-    energy *= all;
+bool Walker::survives(double &energy) {
     if (energy >= rules_.energy_bound)
         return true;
-    const bool survives = random_.unit() * rules_.energy_bound < energy;
+    const bool goes_on = random_.unit() * rules_.energy_bound < energy;
     energy = rules_.energy_bound;
-    return survives;
+    return goes_on;
+}
+
+bool Walker::reflect(const Meeting &meeting, Photon &photon) {
+    const Frame frame = make_frame(meeting.normal);
+    glm::vec3 from = frame.to_local(-photon.direction);
+    from.z = std::max(from.z, kLeastCosine);
+    connect(meeting, frame, from, photon.first, photon.energy);
+    const RoughSurface::Reflection reflection =
+        matter_[meeting.system].surface.sample(from, random_);
+    photon.direction = frame.to_world(reflection.direction);
+    photon.origin = outside(meeting);
+    photon.energy *= reflection.weight;
+    return survives(photon.energy);
+}
+
+// Light that goes through the wall must do so by the wall's own normal: one that is interpolated
+// would let it leave on the side that it came from.
+bool Walker::pass(Meeting &meeting, Photon &photon) {
+    const RoughDielectric &boundary = matter_[meeting.system].body->boundary;
+    meeting.normal = glm::normalize(meeting.face);
+    const Side side = photon.inside ? Side::inside : Side::outside;
+    const Frame frame = make_frame(photon.inside ? -meeting.normal : meeting.normal);
+    glm::vec3 from = frame.to_local(-photon.direction);
+    from.z = std::max(from.z, kLeastCosine);
+    if (photon.inside)
+        connect_exit(meeting, frame, from, photon.energy);
+    else
+        connect(meeting, frame, from, photon.first, photon.energy);
+    const RoughDielectric::Passage passage = boundary.sample(from, side, random_);
+    photon.direction = frame.to_world(passage.direction);
+    photon.inside = photon.inside != passage.through;
+    if (photon.inside)
+        photon.place = {meeting.on_cone ? meeting.point : meeting.point - kOffset * meeting.normal,
+                        meeting.segment, meeting.on_cone};
+    else
+        photon.origin = outside(meeting);
+    return survives(photon.energy);
+}
+
+Fate Walker::advance(Photon &photon, Meeting &meeting) {
+    if (!photon.inside)
+        return trace(photon.origin, photon.direction, meeting);
+    ++rays_;
+    const Strand &strand =
+        scene_.cell().strands[scene_.strand(photon.place.segment, photon.place.on_cone)];
+    float travelled;
+    const Fate fate = scene_.within(photon.place, photon.direction, kForever, meeting, travelled);
+    const double depth = matter_[strand.system].body->depth / (2 * strand.radius);
+    photon.energy *= std::exp(-depth * travelled);
+    return fate;
 }
 
 void Walker::store(Sums &sums) {
@@ -163,12 +239,11 @@ void Walker::store(Sums &sums) {
 void Walker::photon(const glm::vec2 &place, Sums &sums) {
     const FilamentCell &cell = scene_.cell();
     seen_.clear();
-    glm::vec3 origin(place * cell.size, cell.top + kOffset);
-    glm::vec3 direction = -light_.to_light;
-    double energy = 1;
+    Photon photon{glm::vec3(place * cell.size, cell.top + kOffset), -light_.to_light};
     for (int bounce = 0;; ++bounce) {
         Meeting meeting;
-        const Fate fate = trace(origin, direction, meeting);
+        const Fate fate = advance(photon, meeting);
+        const double energy = photon.energy;
         if (fate == Fate::above) {
             sums.reflected += energy;
             sums.reflected_square += energy * energy;
@@ -178,9 +253,9 @@ void Walker::photon(const glm::vec2 &place, Sums &sums) {
         }
         if (fate != Fate::met || (rules_.max_bounces > 0 && bounce > rules_.max_bounces))
             break;
-        if (!scatter(meeting, direction, bounce == 0, energy))
+        if (!(matter_[meeting.system].body ? pass(meeting, photon) : reflect(meeting, photon)))
             break;
-        origin = outside(meeting);
+        photon.first = false;
     }
     store(sums);
 }
@@ -188,16 +263,19 @@ void Walker::photon(const glm::vec2 &place, Sums &sums) {
 } // namespace
 
 LightViews::LightViews(const glm::vec3 &light, std::vector<glm::vec3> viewers,
-                       const std::vector<RoughSurface> &surfaces)
+                       const std::vector<FilamentMatter> &matter)
     : to_light(light), to_viewer(std::move(viewers)) {
     std::vector<glm::vec3> half;
     std::vector<float> weight(to_viewer.size(), 1.0f);
     for (const glm::vec3 &v : to_viewer)
         half.push_back(glm::normalize(v + light));
-    for (const RoughSurface &surface : surfaces) {
-        const auto slope = static_cast<float>(surface.slope());
+    for (const FilamentMatter &m : matter) {
+        const auto slope = static_cast<float>(m.surface.slope());
         by_half.emplace_back(half, weight, slope);
         by_mirror.emplace_back(to_viewer, weight, 2 * slope);
+        by_exit.emplace_back();
+        if (m.body)
+            by_exit.back() = ViewTree(to_viewer, weight, kExitWidth * slope);
     }
 }
 
@@ -212,9 +290,9 @@ void Sums::add(const Sums &other) {
     transmitted_square += other.transmitted_square;
 }
 
-std::uint64_t walk(const FilamentScene &scene, const std::vector<RoughSurface> &surfaces,
+std::uint64_t walk(const FilamentScene &scene, const std::vector<FilamentMatter> &matter,
                    const LightViews &light, const WalkRules &rules, Random random, Sums &sums) {
-    Walker walker(scene, surfaces, light, rules, random);
+    Walker walker(scene, matter, light, rules, random);
     for (std::uint32_t i = 0; i < kPhotonsPerBatch; ++i) {
         const glm::vec2 corner(every_second_bit(i), every_second_bit(i >> 1));
         walker.photon((corner + walker.jitter()) / kStrata, sums);

@@ -6,8 +6,8 @@
 
 #include <glm/glm.hpp>
 
+#include "filament_body.h"
 #include "filament_scene.h"
-#include "rough_surface.h"
 #include "tsuya/lab/goniometer.h"
 #include "view_tree.h"
 
@@ -19,10 +19,11 @@ struct LightViews {
     std::vector<glm::vec3> to_viewer{};
     std::vector<ViewTree> by_half{};   // per system: half vectors about a normal
     std::vector<ViewTree> by_mirror{}; // per system: views about a mirror direction
+    std::vector<ViewTree> by_exit{};   // per system: views about a refracted direction
 
-    // \param surfaces one per system
+    // \param matter one per system
     LightViews(const glm::vec3 &light, std::vector<glm::vec3> viewers,
-               const std::vector<RoughSurface> &surfaces);
+               const std::vector<FilamentMatter> &matter);
 };
 
 // Sums over photons, and over their squares.
@@ -36,12 +37,12 @@ struct Sums {
 };
 
 struct WalkRules {
-    int max_bounces = 0; // 0: all
+    int max_bounces = 0; // meetings after the first; 0: all
     double energy_bound = 0.5;
 };
 
 // One batch. \param random the batch's own. Returns the number of rays.
-std::uint64_t walk(const FilamentScene &scene, const std::vector<RoughSurface> &surfaces,
+std::uint64_t walk(const FilamentScene &scene, const std::vector<FilamentMatter> &matter,
                    const LightViews &light, const WalkRules &rules, Random random, Sums &sums);
 
 } // namespace tsuya::lab

@@ -1,18 +1,17 @@
 #pragma once
 // The rough surface of a filament, in the frame of its mean normal.
 
-#include <cstdint>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "facets.h"
 #include "random.h"
 #include "tsuya/lab/filaments.h"
 
 namespace tsuya::lab {
-
-// Share of unpolarised light that a smooth boundary reflects, seen from the thinner side.
-double fresnel(double cosine, double refractive_index);
 
 // A lobe per solid angle proportional to g(mu) mu, mu the cosine with the normal; g tabulated.
 class CosineLobe {
@@ -20,18 +19,31 @@ class CosineLobe {
     CosineLobe() = default;
     // \param g values at mu = (k / (size - 1))^2
     explicit CosineLobe(std::vector<double> g);
+    // The lobe whose g is `of(mu)`, tabulated
+    template <class Function> static CosineLobe tabulate(Function of) {
+        std::vector<double> g(kNodes);
+        for (std::size_t k = 0; k < kNodes; ++k)
+            g[k] = of(node(k));
+        return CosineLobe(std::move(g));
+    }
     double value(double mu) const; // g
     double per_sr(double mu) const { return value(mu) * mu * scale_; }
     double integral() const { return integral_; } // of g mu over the hemisphere
     double sample(Random &random) const;          // mu
 
   private:
+    static constexpr std::size_t kNodes = 128;
+    static double node(std::size_t k) {
+        const double x = static_cast<double>(k) / (kNodes - 1);
+        return std::max(x * x, 1e-6);
+    }
+
     std::vector<double> g_{};
     double largest_ = 0, integral_ = 0, scale_ = 0;
 };
 
-// Facets with Gaussian slopes and Smith's uncorrelated-height shadowing of correlated heights
-// [Heitz]; what single reflection loses in the roughness comes back as the lobe of [KullaConty].
+// Facets with the shadowing of correlated heights [Heitz]; what single reflection loses in the
+// roughness comes back as the lobe of [KullaConty]. What enters is not followed here.
 class RoughSurface {
   public:
     explicit RoughSurface(const FilamentOptics &optics);
@@ -49,20 +61,18 @@ class RoughSurface {
     double multiple_per_sr(double mu_from, double mu_to) const;
     // Share of energy that several reflections take without Fresnel losses.
     double multiple_share(double mu) const { return lost_.value(mu); }
-    // Where light that entered comes out.
-    const CosineLobe &exit() const { return exit_; }
+    // The lobe of several reflections before Fresnel losses.
+    const CosineLobe &lost() const { return lost_; }
 
-    double slope() const { return slope_; }
-    double transmission() const { return transmission_; }
+    double slope() const { return facets_.slope(); }
 
   private:
-    double lambda(double mu) const;
-    glm::vec2 visible_slopes(double mu, Random &random) const;
-    // Sums over facets for one direction: reflected without and with Fresnel losses.
-    glm::dvec2 single_albedo(double mu) const;
+    // Share that single reflections without Fresnel losses send upwards.
+    double single_albedo(double mu) const;
 
-    double slope_, index_, transmission_;
-    CosineLobe lost_{}, exit_{};
+    Facets facets_;
+    double index_;
+    CosineLobe lost_{};
 };
 
 } // namespace tsuya::lab

@@ -7,10 +7,14 @@
 /// of a filament it is reflected by facets whose slopes are Gaussian (Beckmann's distribution with
 /// Smith's shadowing [Walter]) with the exact Fresnel term of unpolarised light. What single
 /// reflections lose in the roughness comes back as a broad lobe [KullaConty], so that the surface
-/// alone neither makes nor loses light. What enters leaves again with the filament's
-/// `transmission`, or is lost: the light that leaves has forgotten where it came from, comes out
-/// evenly around the section at the same place along the axis, and as much per direction as could
-/// enter from there. All of this is reciprocal.
+/// alone neither makes nor loses light.
+///
+/// What enters a filament whose `transmission` is 0 is lost. Any other filament is a body with a
+/// rough boundary: light refracts in and out by the same facets and the exact Fresnel term, total
+/// reflection included, and is absorbed along its way by the dye. What the roughness loses there
+/// comes back too, so that a clear filament keeps all light. All of this is reciprocal.
+/// Where light goes through filaments, all of them are made thinner by one factor until each two
+/// are apart by 1 % of the sum of their radii; an overlap of more than 20 % is an error.
 ///
 /// At every meeting one of the asked views is chosen, in proportion to what it would see, and
 /// connected by a ray: values are of the exact direction, without a solid angle about it.

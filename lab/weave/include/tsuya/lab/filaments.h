@@ -30,8 +30,9 @@ struct FilamentOptics {
     double corner_rounding = 0.3;    ///< of a section that is not round: 0 sharp, 1 round
     double refractive_index = 1.6;   ///< >= 1
     double surface_roughness = 0.08; ///< standard deviation of the surface's slope, radians
-    /// Share of the light that enters a filament and comes out again, 0 (black) to 1. See the
-    /// goniometer for the model of where it goes.
+    /// Share of the light that comes through a diameter of the filament (2 Filament::radius, also of
+    /// sections that are not round), 0 (black) to 1 (clear): the dye absorbs
+    /// -ln(transmission) / diameter per length, by Beer's law. Above 0 the index is 1.05 or more.
     double transmission = 0.0;
 };
 

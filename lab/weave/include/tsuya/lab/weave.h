@@ -14,7 +14,7 @@
 ///     section = "round"          # triangular, trilobal
 ///     tension = 1                # warp over weft: the one that is pulled more lies straighter
 ///     material = "polyester"     # silk, cellulose; or refractive_index = 1.6
-///     transmission = [0, 0, 0]   # of the dyed filament in red, green and blue
+///     transmission = [0, 0, 0]   # of a diameter of the dyed filament: red, green, blue
 
 #include <array>
 #include <filesystem>
@@ -47,7 +47,7 @@ struct Yarn {
     FiberMaterial material = FiberMaterial::polyester;
     std::optional<double> refractive_index{}; ///< instead of the material's; 1 to 3
     double surface_roughness = 0.08; ///< standard deviation of a filament's slope, radians, 0 to 1
-    /// Share of the light that enters a filament and comes out again, in red (610 nm), green
+    /// Share of the light that comes through a diameter of a filament, in red (610 nm), green
     /// (550 nm) and blue (465 nm), each 0 to 1: the dye. 0 is black.
     std::array<double, 3> transmission{0, 0, 0};
 

@@ -1,0 +1,313 @@
+// Light through filaments, against what is known of smooth cylinders and of any boundary.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "filament_cell.h"
+#include "lab/filament_samples.h"
+#include "photon_walk.h"
+#include "rough_dielectric.h"
+#include "tsuya/lab/goniometer.h"
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab {
+namespace {
+
+constexpr double kIndex = 1.55;
+using Normals = RoughDielectric::Normals;
+
+glm::vec3 toward(double theta, double phi) {
+    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+RoughDielectric boundary(double slope, Normals normals = Normals::visible) {
+    const FilamentOptics optics{
+        .refractive_index = kIndex, .surface_roughness = slope, .transmission = 1};
+    return {optics, RoughSurface(optics), normals};
+}
+
+TEST(RoughDielectric, IsReciprocal) {
+    const RoughDielectric b = boundary(0.1);
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> unit;
+    double largest = 0, without = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::vec3 from = toward(1.3 * unit(generator), 6.28 * unit(generator));
+        glm::vec3 to = b.refracted(from, Side::outside);
+        to += 0.1f * toward(3.14 * unit(generator), 6.28 * unit(generator));
+        to = glm::normalize(to);
+        if (to.z > -0.01f)
+            continue;
+        // Seen from the other side the normal points the other way
+        const double there = b.through_per_sr(from, to, Side::outside) * from.z;
+        const double back = b.through_per_sr(-to, -from, Side::inside) * -to.z * kIndex * kIndex;
+        largest = std::max(largest, std::abs(there - back) / (there + back + 1e-2));
+        without = std::max(without, std::abs(there - back / kIndex) / (there + back + 1e-2));
+    }
+    EXPECT_LT(largest, 1e-4);
+    EXPECT_GT(without, 0.1) << "control";
+}
+
+/// Largest |z| of counts of what passes, in bins of the cosine and the turn, against densities.
+double passage_z(double theta, double slope, Side side, Normals normals) {
+    const RoughDielectric b = boundary(slope, normals), right = boundary(slope);
+    const glm::vec3 from = toward(theta, 0.4);
+    constexpr int kRows = 8, kColumns = 12, kCount = 400000, kFine = 40;
+    constexpr double kPi2 = 2 * kPi;
+    const Side other = side == Side::inside ? Side::outside : Side::inside;
+    std::vector<double> count(kRows * kColumns), expected(count.size());
+    Random random(5, 6, 7);
+    for (int i = 0; i < kCount; ++i) {
+        const RoughDielectric::Passage p = b.sample(from, side, random);
+        if (!p.through)
+            continue;
+        const glm::vec3 d = p.direction;
+        const int row = std::min(kRows - 1, static_cast<int>(-d.z * kRows));
+        const int column = std::min(
+            kColumns - 1, static_cast<int>((std::atan2(d.y, d.x) / kPi2 + 0.5) * kColumns));
+        count[static_cast<std::size_t>(row * kColumns + column)] += 1;
+    }
+    for (int i = 0; i < kRows * kFine; ++i)
+        for (int j = 0; j < kColumns * kFine; ++j) {
+            const double mu = (i + 0.5) / (kRows * kFine), s = std::sqrt(1 - mu * mu);
+            const double phi = kPi2 * ((j + 0.5) / (kColumns * kFine) - 0.5);
+            const glm::vec3 to(s * std::cos(phi), s * std::sin(phi), -mu);
+            double p = right.through_per_sr(from, to, side);
+            p += right.even_per_sr(from.z, side, mu, other);
+            expected[static_cast<std::size_t>(i / kFine * kColumns + j / kFine)] +=
+                p * kPi2 / (kRows * kFine) / (kColumns * kFine);
+        }
+    double largest = 0;
+    for (std::size_t k = 0; k < count.size(); ++k) {
+        const double share = count[k] / kCount;
+        // 2e-5: of the sum over the bin
+        const double sigma = std::sqrt(share / kCount) + 2e-5;
+        largest = std::max(largest, std::abs(share - expected[k]) / sigma);
+    }
+    return largest;
+}
+
+TEST(RoughDielectric, SamplesWhatItEvaluates) {
+    for (const double theta : {20.0, 30.0, 40.0, 50.0})
+        EXPECT_LT(passage_z(theta * kDegree, 0.15, Side::inside, Normals::visible), sidak_bound(96))
+            << theta;
+    for (const double theta : {35.0, 55.0, 75.0})
+        EXPECT_LT(passage_z(theta * kDegree, 0.15, Side::outside, Normals::visible),
+                  sidak_bound(96))
+            << theta;
+    for (const Side side : {Side::inside, Side::outside})
+        EXPECT_GT(passage_z(side == Side::inside ? 0.6 : 1.3, 0.15, side, Normals::all),
+                  sidak_bound(96))
+            << "control";
+}
+
+/// Light that meets a smooth cylinder: shares of it by the turn at which it leaves, seen along the
+/// axis. 0 is straight back. [Marschner] in the plane across; inclined light by Bravais' index,
+/// with Fresnel's term for the directions as they are in space.
+struct Cylinder {
+    double inclination; ///< of the light to the plane across the axis, radians
+    double transmission;
+    std::vector<double> share = std::vector<double>(kBins, 0.0);
+    double all = 0; ///< shares of all turns
+    static constexpr int kBins = 36;
+
+    Cylinder(double inclined, double of_a_diameter)
+        : inclination(inclined), transmission(of_a_diameter) {
+        constexpr int kSteps = 400000, kMostPasses = 60;
+        const double across = std::cos(inclination);
+        const double within = std::sqrt(1 - std::pow(std::sin(inclination) / kIndex, 2));
+        const double bravais = kIndex * within / across;
+        for (int i = 0; i < kSteps; ++i) {
+            const double h = 2 * (i + 0.5) / kSteps - 1, gamma = std::asin(h);
+            const double gamma_t = std::asin(h / bravais);
+            const double f = fresnel(across * std::cos(gamma), kIndex);
+            const double chord =
+                std::pow(transmission, std::cos(gamma_t) / within); // a diameter is 1
+            add(2 * gamma, f / kSteps);
+            double energy = (1 - f) * chord;
+            double turn = 2 * gamma - 2 * gamma_t + kPi; // of p = 1
+            for (int p = 1; p < kMostPasses; ++p) {
+                add(turn, energy * (1 - f) / kSteps);
+                energy *= f * chord;
+                turn += kPi - 2 * gamma_t;
+            }
+        }
+    }
+    void add(double turn, double amount) {
+        const double t = turn / (2 * kPi) + 0.5;
+        share[static_cast<std::size_t>((t - std::floor(t)) * kBins) % kBins] += amount;
+        all += amount;
+    }
+};
+
+constexpr double kCover = 20.0 / 400; ///< of far_cylinders
+
+/// Largest |z| of bins of the turn, of views above the cloth, against a cylinder of another
+/// transmission. The light stands `theta` from above, in the plane of the axis or across it.
+double cylinder_z(double theta, bool along, double transmission, double expected_transmission) {
+    const FilamentOptics optics{
+        .refractive_index = kIndex, .surface_roughness = 0.006, .transmission = transmission};
+    const double inclined = along ? theta : 0;
+    const Cylinder cylinder(inclined, expected_transmission);
+    constexpr double kTurnStep = 0.02, kOffStep = 0.015;
+    const double bin = 2 * kPi / Cylinder::kBins;
+    double largest = 0;
+    for (int b = 1; b < Cylinder::kBins - 1; b += 2) {
+        // Turns are counted from straight back to the light, which is `theta` from above
+        const double first = (b - 0.5 * Cylinder::kBins) * bin;
+        Directions directions;
+        std::vector<double> weight;
+        const int steps = static_cast<int>(std::round(bin / kTurnStep));
+        for (int i = 0; i < steps; ++i)
+            for (int j = -5; j <= 5; ++j) {
+                const double turn = first + (i + 0.5) * bin / steps + (along ? 0 : theta);
+                const double off = -inclined + j * kOffStep;
+                const glm::dvec3 v{std::cos(off) * std::sin(turn), std::sin(off),
+                                   std::cos(off) * std::cos(turn)};
+                if (v.z < 0.05)
+                    continue;
+                directions.pairs.push_back(
+                    {theta, along ? kPi / 2 : 0, std::acos(v.z), std::atan2(v.y, v.x)});
+                weight.push_back(v.z * std::cos(off) * kOffStep * bin / steps);
+            }
+        if (weight.size() != static_cast<std::size_t>(11 * steps))
+            continue;
+        const Measurement m = measure(far_cylinders(optics), directions, {.photons = 1 << 18});
+        double sum = 0, variance = 0;
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            sum += m.table.rows[i].brdf_per_sr * weight[i];
+            variance += std::pow(m.table.rows[i].sigma_per_sr * weight[i], 2);
+        }
+        // Of the cylinder as wide as it is seen: across, it covers 1 / cos(theta) of what it does
+        const double seen = along ? kCover : kCover / std::cos(theta);
+        const double expected = seen * cylinder.share[static_cast<std::size_t>(b)];
+        // Neighbouring views see the same photons; 2 %: roughness moves light from bin to bin
+        const double sigma = std::hypot(2 * std::sqrt(variance), 0.02 * expected) + 2e-6;
+        largest = std::max(largest, std::abs(sum - expected) / sigma);
+    }
+    return largest;
+}
+
+TEST(ClearCylinder, HasTheAnalyticDistributionAroundItsAxis) {
+    EXPECT_LT(cylinder_z(0.001, true, 1, 1), 4);
+    EXPECT_LT(cylinder_z(0.001, true, 0.5, 0.5), 4);
+    EXPECT_GT(cylinder_z(0.001, true, 0.5, 0.9), 4) << "control";
+}
+
+TEST(ClearCylinder, SendsLightIntoTheConeOfTheLight) {
+    EXPECT_LT(cylinder_z(0.7, true, 0.5, 0.5), 4);
+    EXPECT_GT(cylinder_z(0.7, true, 0.5, 0.9), 4) << "control";
+    // Beside the cone there is nothing: views 0.3 off it, all around
+    Directions on, off;
+    for (double turn = -1.2; turn <= 1.2; turn += 0.02)
+        for (const double inclination : {-0.7, -0.4}) {
+            const glm::dvec3 v{std::cos(inclination) * std::sin(turn), std::sin(inclination),
+                               std::cos(inclination) * std::cos(turn)};
+            (inclination < -0.5 ? on : off)
+                .pairs.push_back({0.7, kPi / 2, std::acos(v.z), std::atan2(v.y, v.x)});
+        }
+    const FilamentOptics optics{
+        .refractive_index = kIndex, .surface_roughness = 0.006, .transmission = 0.8};
+    const auto mean = [&](const Directions &directions) {
+        double sum = 0;
+        for (const ReflectanceRow &row :
+             measure(far_cylinders(optics), directions, {.photons = 1 << 18}).table.rows)
+            sum += row.brdf_per_sr;
+        return sum / static_cast<double>(directions.pairs.size());
+    };
+    EXPECT_LT(mean(off), 1e-3 * mean(on));
+}
+
+TEST(ClearCylinder, AbsorbsAlongTheChord) {
+    // Beer's law over all chords: what is neither reflected nor transmitted, of what is met
+    for (const double theta : {0.0, 0.8})
+        for (const double transmission : {0.3, 0.8}) {
+            const FilamentOptics optics{.refractive_index = kIndex,
+                                        .surface_roughness = 0.005,
+                                        .transmission = transmission};
+            const Measurement m = measure(
+                far_cylinders(optics), {.pairs = {{theta, kPi / 2, 0, 0}}}, {.photons = 1 << 21});
+            const LightReport &light = m.lights[0];
+            const double lost = 1 - light.reflected - light.transmitted;
+            const double sigma = std::hypot(light.reflected_sigma, light.transmitted_sigma) +
+                                 3e-3 * kCover; // the roughness
+            EXPECT_NEAR(lost, kCover * (1 - Cylinder(theta, transmission).all), 4 * sigma) << theta;
+            EXPECT_GT(std::abs(lost - kCover * (1 - Cylinder(theta, 0.7 * transmission).all)),
+                      4 * sigma)
+                << "control";
+        }
+}
+
+/// Largest |z| of pairs of directions there and back, to 75 degrees.
+double reciprocity_z(const FilamentRepeat &repeat, Normals normals, double factor = 1) {
+    constexpr int kPairs = 12, kBatches = 6;
+    const FilamentScene scene(FilamentCell(repeat, 0.02, 24));
+    std::vector<FilamentMatter> matter;
+    for (const FilamentOptics &optics : repeat.optics)
+        matter.emplace_back(optics, normals);
+    std::mt19937 generator(17);
+    std::uniform_real_distribution<double> unit;
+    const auto run = [&](const glm::vec3 &light, const glm::vec3 &view, std::uint32_t seed) {
+        const LightViews views(light, {view}, matter);
+        Sums sums(1);
+        for (std::uint32_t batch = 0; batch < kBatches; ++batch)
+            walk(scene, matter, views, {}, Random(seed, 0, batch), sums);
+        const double n = static_cast<double>(kBatches * kPhotonsPerBatch), mean = sums.value[0] / n;
+        return glm::dvec2(mean, std::sqrt((sums.square[0] / n - mean * mean) / n));
+    };
+    double largest = 0;
+    for (std::uint32_t i = 0; i < kPairs; ++i) {
+        // Half of the pairs have a direction at 60 to 75 degrees
+        const double steep = (i % 2 == 0 ? 60 + 15 * unit(generator) : 60 * unit(generator));
+        const glm::vec3 a = toward(steep * kDegree, 6.28 * unit(generator));
+        const glm::vec3 b = toward(75 * unit(generator) * kDegree, 6.28 * unit(generator));
+        const glm::dvec2 there = run(a, b, 2 * i), back = run(b, a, 2 * i + 1);
+        largest = std::max(largest, std::abs(there.x - factor * back.x) /
+                                        std::hypot(there.y, factor * back.y));
+    }
+    return largest;
+}
+
+TEST(ClearFilaments, AreReciprocal) {
+    for (const FilamentSection section :
+         {FilamentSection::round, FilamentSection::triangular, FilamentSection::trilobal}) {
+        const FilamentRepeat layers = close_layers({.section = section,
+                                                    .refractive_index = kIndex,
+                                                    .surface_roughness = 0.2,
+                                                    .transmission = 0.9});
+        EXPECT_LT(reciprocity_z(layers, Normals::visible), sidak_bound(12))
+            << static_cast<int>(section);
+        if (section != FilamentSection::round)
+            continue;
+        EXPECT_GT(reciprocity_z(layers, Normals::visible, 1.5), sidak_bound(12)) << "control";
+        EXPECT_GT(reciprocity_z(layers, Normals::all), sidak_bound(12)) << "control";
+    }
+}
+
+TEST(ClearFilaments, AreKeptApart) {
+    FilamentRepeat repeat = close_layers({.transmission = 0.5});
+    for (Filament &f : repeat.filaments)
+        f.radius = 10.6e-6f; // 21 um apart
+    const FilamentCell cell(repeat, 0.02, 24);
+    EXPECT_LT(cell.thinning, 0.99);
+    EXPECT_NEAR(cell.gap, kLeastGap, 1e-6);
+    // The gap is that of the filaments as they are traced
+    FilamentRepeat thinner = repeat;
+    for (Filament &f : thinner.filaments)
+        f.radius *= static_cast<float>(cell.thinning);
+    EXPECT_NEAR(FilamentCell(thinner, 0.02, 24).thinning, 1, 1e-5);
+    for (FilamentOptics &o : repeat.optics)
+        o.transmission = 0;
+    EXPECT_EQ(FilamentCell(repeat, 0.02, 24).thinning, 1) << "black ones stay as they are";
+    for (FilamentOptics &o : repeat.optics)
+        o.transmission = 0.5;
+    for (Filament &f : repeat.filaments)
+        f.radius = 14e-6f;
+    EXPECT_THROW(FilamentCell(repeat, 0.02, 24), Error);
+}
+
+} // namespace
+} // namespace tsuya::lab
