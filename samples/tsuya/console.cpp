@@ -1,8 +1,10 @@
 #include "console.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <iostream>
+#include <span>
 
 #include <signal.h>
 #include <unistd.h>
@@ -19,16 +21,23 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 std::atomic<bool> snapshot{false};
 
-void handle_signals(void (*handler)(int)) {
+constexpr std::array kEnding{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array kShielded{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP};
+
+void handle(std::span<const int> signals, void (*handler)(int), int flags) {
     struct sigaction action {};
     action.sa_handler = handler;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    action.sa_flags = flags;
+    for (const int signal : signals) {
         struct sigaction before {};
         sigaction(signal, nullptr, &before);
         if (signal != SIGHUP || before.sa_handler != SIG_IGN)
             sigaction(signal, &action, nullptr);
     }
+}
+
+void handle_signals(void (*handler)(int)) {
+    handle(kEnding, handler, static_cast<int>(SA_RESETHAND));
 }
 
 std::string text_of(const Problem &problem) {
@@ -55,6 +64,20 @@ void watch_signals() {
         [[maybe_unused]] const auto told = write(STDERR_FILENO, kText.data(), kText.size());
         _exit(kInterrupted);
     });
+}
+
+SignalShield::SignalShield() {
+    handle(
+        kShielded, [](int) { stop = true; }, 0);
+    struct sigaction ignored {};
+    ignored.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &ignored, nullptr);
+}
+
+// No word to stderr, which may be the pipe that is full.
+SignalShield::~SignalShield() {
+    handle(
+        kShielded, [](int) { _exit(kInterrupted); }, 0);
 }
 
 std::atomic<bool> &watch_snapshot_signal() {

@@ -26,6 +26,17 @@ ProgressMode parse_progress_mode(const std::string &name);
 /// SIGHUP stays ignored where it is (nohup).
 void watch_signals();
 
+/// While it lives, any number of SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGTSTP only set the stop
+/// flag of `Console::progress`: for a command that holds a lit lamp. After it, each of them ends
+/// the process at once with kInterrupted. From its start on, a pipe that nobody reads ends nothing.
+class SignalShield {
+  public:
+    SignalShield();
+    ~SignalShield();
+    SignalShield(const SignalShield &) = delete;
+    SignalShield &operator=(const SignalShield &) = delete;
+};
+
 /// Lets SIGUSR1 set the flag that is returned, again and again.
 std::atomic<bool> &watch_snapshot_signal();
 

@@ -1,10 +1,12 @@
 // tsuya lab pulse: lamp and shutter of the measuring rig.
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 
 #include "command.h"
 #include "json_file.h"
+#include "tsuya/lab/progress_relay.h"
 #include "tsuya/lab/pulse_job.h"
 
 namespace tsuya::program {
@@ -20,17 +22,63 @@ constexpr double kLongestMs = 1e9; // run_pulse_job knows the limits
 
 double ms_of(std::chrono::nanoseconds time) { return Milliseconds(time).count(); }
 
+/// The options of one line.
+struct LineOptions {
+    std::string chip{}, drive{"push-pull"}, bias{"as-is"};
+    bool active_low = false;
+
+    /// \param prefix of the options' names, `--lamp`
+    /// \param line where there is one, the option without which these have no meaning
+    void options(Options &o, const std::string &prefix, const std::string &what,
+                 const Option *line) {
+        for (Option *option :
+             {&o.option(prefix + "-chip", &chip, "CHIP",
+                        "GPIO chip of the " + what +
+                            ": name, path, label or number; without it, "
+                            "the one that has the line"),
+              &o.flag(prefix + "-active-low", &active_low,
+                      "the low level of the " + what + "'s line is the active one"),
+              &o.option(prefix + "-drive", &drive, "DRIVE", "how the " + what + "'s line is driven")
+                   .one_of(kDrives),
+              &o.option(prefix + "-bias", &bias, "BIAS", "resistor of the " + what + "'s line")
+                   .one_of(kBiases)})
+            if (line)
+                option->needs(*line);
+    }
+    lab::GpioLineSettings settings(const std::string &line) const {
+        return {.chip = chip,
+                .line = line,
+                .active_low = active_low,
+                .drive = static_cast<lab::Drive>(place_of(drive, kDrives)),
+                .bias = static_cast<lab::Bias>(place_of(bias, kBiases))};
+    }
+
+  private:
+    static std::ptrdiff_t place_of(const std::string &name, const std::vector<std::string> &names) {
+        return std::find(names.begin(), names.end(), name) - names.begin();
+    }
+    // in the order of lab::Drive and lab::Bias
+    inline static const std::vector<std::string> kDrives{"push-pull", "open-drain", "open-source"};
+    inline static const std::vector<std::string> kBiases{"as-is", "disabled", "pull-up",
+                                                         "pull-down"};
+};
+
 struct LabPulse final : Command {
     lab::PulseJob job{.train = {.count = 5}};
-    std::string chip{}, lamp_line{};
+    std::string line = "shutter";
+    std::optional<std::string> lamp_line{};
+    LineOptions shutter{}, lamp{};
     double width_ms = 20, period_ms = 100, warm_up_ms = 0;
-    bool active_low = false, json = false;
+    std::optional<double> tolerance_ms{};
+    bool json = false;
 
     void options(Options &o) override {
-        o.option("--line", &job.shutter.line, "LINE", "name or offset of the shutter's line");
-        o.option("--lamp-line", &lamp_line, "LINE",
-                 "name or offset of the lamp's line; without it no lamp is driven");
-        o.option("--chip", &chip, "CHIP", "GPIO chip; without it, the one that has the line");
+        o.option("--line", &line, "LINE", "name or offset of the shutter's line");
+        shutter.options(o, "--line", "shutter", nullptr);
+        const Option &lamp_option =
+            o.option("--lamp-line", &lamp_line, "LINE",
+                     "name or offset of the lamp's line; without it no lamp is driven");
+        lamp.options(o, "--lamp", "lamp", &lamp_option);
         o.option("--width-ms", &width_ms, "MS", "milliseconds that the shutter is open")
             .range(0, kLongestMs);
         o.option("--period-ms", &period_ms, "MS", "milliseconds from one opening to the next")
@@ -39,30 +87,53 @@ struct LabPulse final : Command {
         o.option("--warm-up-ms", &warm_up_ms, "MS",
                  "milliseconds that the lamp is on before the first pulse")
             .range(0, kLongestMs);
-        o.flag("--active-low", &active_low, "the low level of both lines is the active one");
+        o.option("--tolerance-ms", &tolerance_ms, "MS",
+                 "how late an opening or closing may be; without it, the larger of 0.5 ms and 2 % "
+                 "of the width")
+            .range(0, kLongestMs);
         o.flag("--simulate", &job.simulate, "simulated lines in virtual time, without hardware");
         o.flag("--json", &json, "print the report as JSON");
         o.example("tsuya lab pulse --line shutter --lamp-line lamp --width-ms 20 --count 5");
-        o.notes("Lamp and shutter are off at the end of every run.");
+        o.notes("Lamp and shutter are off at the end of every run. The pulses that were done are "
+                "printed\nalso where the run ends with an error or is interrupted.");
     }
 
     Status run(Console &console) override {
         job.train.width = nanoseconds_of(width_ms);
         job.train.period = nanoseconds_of(period_ms);
         job.train.warm_up = nanoseconds_of(warm_up_ms);
-        job.shutter.chip = chip;
-        job.shutter.active_low = active_low;
-        if (!lamp_line.empty())
-            job.lamp = {.chip = chip, .line = lamp_line, .active_low = active_low};
-        const lab::PulseReport report = lab::run_pulse_job(job, console.progress());
-        if (json)
-            print_json(report);
-        else
-            print(report);
+        if (tolerance_ms)
+            job.train.tolerance = nanoseconds_of(*tolerance_ms);
+        job.shutter = shutter.settings(line);
+        if (lamp_line)
+            job.lamp = lamp.settings(*lamp_line);
+        try {
+            print(pulse(console));
+        } catch (const lab::PulsesFailed &failed) {
+            print(failed.report());
+            throw;
+        } catch (const lab::PulsesInterrupted &interrupted) {
+            print(interrupted.report());
+            throw;
+        }
         return kDone;
     }
 
-    static void print(const lab::PulseReport &report) {
+    /// The lines are let go before anything waits for a terminal that does not take the progress.
+    lab::PulseReport pulse(Console &console) const {
+        lab::ProgressRelay relay(console.progress());
+        const SignalShield shield;
+        return lab::run_pulse_job(job, relay.progress());
+    }
+
+    void print(const lab::PulseReport &report) const {
+        if (json)
+            print_json(report);
+        else
+            print_table(report);
+    }
+
+    static void print_table(const lab::PulseReport &report) {
         std::cout << "pulse   opened_ms   closed_ms    width_ms\n"
                   << std::fixed << std::setprecision(3);
         for (std::size_t i = 0; i < report.pulses.size(); ++i) {
@@ -78,6 +149,7 @@ struct LabPulse final : Command {
     void print_json(const lab::PulseReport &report) const {
         Json numbers{{"schema", "tsuya-lab-pulse 1"},
                      {"simulated", job.simulate},
+                     {"planned_pulses", job.train.count},
                      {"mean_width_ms", ms_of(report.mean_width)},
                      {"mean_late_ms", ms_of(report.mean_late)},
                      {"largest_late_ms", ms_of(report.largest_late)},

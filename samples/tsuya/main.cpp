@@ -31,6 +31,7 @@ constexpr std::array kCommands{
     // [/doc:command_table]
     CommandEntry{"garment subdivide", "The limit surface of a mesh", make_garment_subdivide},
     CommandEntry{"lab", "Drive the measuring rig", nullptr},
+    CommandEntry{"lab lines", "The GPIO lines of this computer", make_lab_lines},
     CommandEntry{"lab pulse", "Open the shutter for exact times", make_lab_pulse},
     CommandEntry{"list", "What can be named: lamps, dyes, fabrics, ...", make_list},
 };

@@ -32,8 +32,8 @@ class WrongCall : public Error {
 using Field =
     std::variant<bool *, int *, std::uint32_t *, std::uint64_t *, double *, std::string *,
                  std::filesystem::path *, std::optional<int> *, std::optional<std::uint32_t> *,
-                 std::optional<double> *, std::vector<int> *, std::vector<std::string> *,
-                 std::vector<std::filesystem::path> *>;
+                 std::optional<double> *, std::optional<std::string> *, std::vector<int> *,
+                 std::vector<std::string> *, std::vector<std::filesystem::path> *>;
 
 /// One option: its rules, and after parsing the words that were given for it.
 struct Option {

@@ -489,6 +489,27 @@ TEST(Program, PulsesInVirtualTime) {
     EXPECT_DOUBLE_EQ(report["pulses"][1].at("closed_ms"), 102.5);
     EXPECT_EQ(run(scratch, {"lab", "pulse", "--simulate", "--width-ms", "0"}).status, 1);
     EXPECT_EQ(run(scratch, {"lab", "pulse", "--simulate", "--lamp-line", "shutter"}).status, 1);
+    for (const char *option : {"--line", "--lamp-line"}) {
+        const Outcome refused = run(scratch, {"lab", "pulse", "--simulate", option, ""});
+        EXPECT_EQ(refused.status, 1);
+        EXPECT_NE(refused.err.find("empty name"), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(run(scratch, {"lab", "pulse", "--simulate", "--lamp-bias", "pull-up"}).status, 2);
+    EXPECT_EQ(run(scratch, {"lab", "pulse", "--simulate", "--tolerance-ms", "0"}).status, 1);
+}
+
+// A computer that runs tests may have GPIO or none; its user may be allowed to open it or not.
+TEST(Program, ListsTheLinesOfThisComputer) {
+    const Scratch scratch;
+    const Outcome listed = run(scratch, {"lab", "lines", "--json"});
+    if (listed.status != 0) {
+        EXPECT_NE(listed.err.find("cannot be opened"), std::string::npos) << listed.err;
+        return;
+    }
+    const json report = json::parse(listed.out);
+    EXPECT_EQ(report.at("schema"), "tsuya-lab-lines 1");
+    EXPECT_TRUE(report.at("lines").is_array());
+    EXPECT_TRUE(report.at("unreadable").is_array());
 }
 
 } // namespace
