@@ -72,7 +72,7 @@ HalfVectorCore::HalfVectorCore(const Bard &bard, double f0, const Progress &prog
     tabulate_albedos(bard.symmetry(), progress);
 }
 
-// The disk of the horizontal part of H has the area element N.H dH: even cells draw D N.H.
+// The disk of the horizontal part of H has the area element N.H dH: equal cells sample D N.H.
 void HalfVectorCore::tabulate_density() {
     std::vector<double> mass;
     double total = 0;
@@ -104,7 +104,7 @@ WeighedLight HalfVectorCore::weigh(const glm::vec3 &to_light, const glm::vec3 &t
     return {terms.cos(to_light.z, to_viewer.z), density / (4 * v_h)};
 }
 
-// Draws H, and mirrors the view in it. A facet that looks away is a null sample.
+// Samples H, and mirrors the view in it. A facet that looks away is a null sample.
 glm::vec3 HalfVectorCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     const glm::vec2 p = disk_of_square(density_.sample({u.x, u.y}).point);
     const glm::vec3 half(p, std::sqrt(std::max(1 - glm::dot(p, p), 0.0f)));

@@ -19,7 +19,7 @@ constexpr int kFullTableNodes = 181; // whole square; 0.9 degrees
 constexpr int kDensityCells = 96;
 constexpr int kPartsOfCell = 4;          // along it, where its mass is summed
 constexpr float kEvenShare = 0.01f;      // of a density: keeps it above 0 where rho0 is not
-constexpr float kHalfShare = 0.9f;       // of the lights, drawn by H; the rest is even
+constexpr float kHalfShare = 0.9f;       // of the lights, sampled by H; the rest is uniform
 constexpr float kTail = 12 * kPiF / 180; // facets beyond 45 degrees fall to 1/e within this tilt
 constexpr float kDiskOfSquare = 0.25f;   // area of the unit square for an area of the disk
 constexpr float kEvenDensity = 0.5f / kPiF;
@@ -69,7 +69,7 @@ void TakedaCore::tabulate_densities(const Progress &progress) {
     });
     // For the facet that mirrors the view into the light V0 lies between two tilts: twice the
     // facet's, under light from straight above, and theta_i a/(a + theta_i), for the view from
-    // straight above. The geometric mean of both draws evenly well from all sides.
+    // straight above. The geometric mean of both samples equally well from all sides.
     halves_ = tabulate_on_disk([&](const glm::vec2 &p) {
         stop_if_asked(progress);
         const float sine = glm::length(p), tilt = std::asin(sine), turned = 2 * tilt;

@@ -16,7 +16,7 @@ namespace tsuya::kernel {
 inline float least(float a, float b) { return a < b ? a : b; }
 inline float most(float a, float b) { return a > b ? a : b; }
 
-// Polynomials of least relative error, summed in pairs: a chain of products would be waited for.
+// Polynomials of least relative error by Estrin's scheme: Horner's is latency-bound.
 
 // acos(x) / sqrt(1 - x^2) in quarter turns, x in [0, 1]; relative error 2e-7
 inline float angle_over_sine(float x) {
@@ -48,8 +48,8 @@ struct Pair {
     float half_z;
 };
 
-// Both directions unit with z >= 0. The order of the operations is that in which their results are
-// waited for: sqrt and division by the level first, the two arcs next, all else beside them.
+// Both directions unit with z >= 0. The operations are in the order of the critical path:
+// sqrt and division by the level first, the two arcs next, all else beside them.
 inline Pair pair_of(float lx, float ly, float lz, float vx, float vy, float vz) {
     // Light from straight above: any azimuth will do
     lx += std::copysign(1e-10f, lx);
@@ -101,7 +101,7 @@ inline float times_cosine(float at_basic, float f0, const Pair &p, float first, 
 float f_cos(const DiskTable &table, float f0, const glm::vec3 &to_light,
             const glm::vec3 &to_viewer);
 
-// The same with the density of the light where H is drawn from `halves`, which is over the square
+// The same with the density of the light where H is sampled from `halves`, which is over the square
 // about the disk of its horizontal part.
 struct Weighed {
     float f_cos, density_per_sr;

@@ -158,8 +158,8 @@ WeighedLight YarnCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_view
             systems.x};
 }
 
-// Draws H, and mirrors the view in it, or a light from the diffuse part. A facet that looks away is
-// a null sample.
+// Samples H, and mirrors the view in it, or a light from the diffuse part. A facet that looks away
+// is a null sample.
 glm::vec3 YarnCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     return draws_.sample(fixed, u);
 }

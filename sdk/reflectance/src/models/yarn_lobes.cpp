@@ -36,9 +36,9 @@ constexpr double kPitShare = 0.42, kDeepestShare = 0.22, kDeepest = 0.3;
 // Depths of pits that views under oblique light choose from: a coarse mesh for every roughness,
 // then around the best
 constexpr std::array<double, 6> kDepths = {0, 0.05, 0.1, 0.2, 0.3, 0.45};
-constexpr std::array<double, 2> kDepthSteps = {0.05, 0.025}; // a dozen views tell no finer
-// Of the even part that views from above tell, as much is kept: the bright oblique views would
-// trade it for slopes, and views on the side of the light go dark
+constexpr std::array<double, 2> kDepthSteps = {0.05, 0.025}; // a dozen views resolve no finer
+// Least share of the diffuse part of views from above that a fit keeps: bright oblique views would
+// trade it for slopes, and views on the side of the light would go dark
 constexpr double kLeastEven = 0.5;
 constexpr std::size_t kLeastOblique = 4;
 constexpr double kOblique = 1e-9; // radians; below, light is from straight above
@@ -80,7 +80,7 @@ struct View {
 };
 
 // The problem min |B x - f|^2 + bending + steepness over x >= 0 for one roughness. Unknown are the
-// surfaces at the slopes of weft and warp and the even part; a symmetric cloth has as much at a
+// surfaces at the slopes of weft and warp and the diffuse part; a symmetric cloth has as much at a
 // slope as at its opposite. The views under light from straight above have a weight of 1 together,
 // those under oblique light, each direction of light alike, as well.
 class Fit {
@@ -90,7 +90,7 @@ class Fit {
     void add_oblique(const ReflectanceTable &table, const std::string &where);
     /// What the lobes of all unknowns have at the views: a row a view.
     Eigen::MatrixXd shapes(double roughness) const;
-    /// Returns the weighted relative error; sets the surfaces and the even part, which is
+    /// Returns the weighted relative error; sets the surfaces and the diffuse part, which is
     /// `least_even` or more.
     double solve(const Eigen::MatrixXd &shapes, YarnLobes &lobes, double least_even = 0) const;
     /// The same with the pits that follow from the shares of the systems.
@@ -172,7 +172,7 @@ Eigen::MatrixXd Fit::shapes(double roughness) const {
     return b;
 }
 
-// The shapes times what light and viewer reach; the last column is the even part.
+// The shapes times what light and viewer reach; the last column is the diffuse part.
 Eigen::MatrixXd Fit::basis(const Eigen::MatrixXd &shapes, const std::array<double, 2> &pit) const {
     const int count = unknowns_of_system();
     Eigen::MatrixXd b(shapes.rows(), shapes.cols() + 1);

@@ -183,7 +183,7 @@ glm::vec3 HalfVectorSampler::sample(const glm::vec3 &fixed, const glm::vec3 &u) 
     const glm::vec2 sign = sign_of(fixed);
     const glm::vec3 folded(sign * glm::vec2(fixed), fixed.z);
     const std::array<Corner, 4> corner = corners(folded);
-    // Without branches: none of them could be foretold
+    // Branch-free: these branches are unpredictable
     std::size_t k = 0;
     float before = 0, sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -67,7 +67,7 @@ struct LightAccuracy {
 };
 
 struct Accuracy {
-    ErrorMeasures mean{}; ///< of the light directions that have the measure, each with one vote
+    ErrorMeasures mean{}; ///< of the light directions that have the measure, equally weighted
     std::vector<LightAccuracy> directions{}; ///< by theta_i, then phi_i
 };
 

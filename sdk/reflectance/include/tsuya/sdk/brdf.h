@@ -35,9 +35,9 @@ concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer
     { m.evaluate(to_light, to_viewer) } -> std::same_as<float>;
     /// f times the light's cosine, in a form that stays bounded where the cosine vanishes
     { m.evaluate_cos(to_light, to_viewer) } -> std::same_as<float>;
-    /// Draws a light for a view; weight = f cos_light / pdf. Empty: a null sample, which counts as drawn.
+    /// Samples a light for a view; weight = f cos_light / pdf. Empty: a null sample, which counts.
     { m.sample(to_viewer, u) } -> std::same_as<std::optional<SampledDirection>>;
-    /// Draws a view for a light; weight = f cos_viewer / pdf.
+    /// Samples a view for a light; weight = f cos_viewer / pdf.
     { m.sample_adjoint(to_light, u) } -> std::same_as<std::optional<SampledDirection>>;
     /// Density of `sample`, 1/sr of to_light
     { m.pdf(to_light, to_viewer) } -> std::same_as<float>;

@@ -15,9 +15,9 @@
 /// | refractive_index | above 1, to 10 | the exact term of a dielectric, in place of f0 |
 ///
 /// Reciprocal. Energy-limited by its form; what light would do between the facets after the first
-/// is lost, up to a half at alpha = 1. Draws the facets that the given direction sees [Heitz2018].
-/// It has one peak about the mirror direction: the two crossing highlights of a woven cloth are
-/// beyond it.
+/// is lost, up to a half at alpha = 1. Samples the facets that the given direction sees
+/// [Heitz2018]. It has one peak about the mirror direction: the two crossing highlights of a woven
+/// cloth are beyond it.
 
 #include <optional>
 #include <string>

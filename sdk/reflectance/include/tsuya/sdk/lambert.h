@@ -8,7 +8,7 @@
 /// |---|---|---|
 /// | albedo | 0 to 1, default 1 | share of the light that is reflected, from every direction |
 ///
-/// Reciprocal, energy-limited, drawn by the cosine. No woven cloth is one: it stands for plain
+/// Reciprocal, energy-limited, sampled by the cosine. No woven cloth is one: it stands for plain
 /// bodies and backdrops, and for what is left of a cloth where its yarns are not told apart.
 
 #include <optional>

@@ -7,8 +7,8 @@
 ///
 /// | operation | meaning |
 /// |---|---|
-/// | `weigh(to_light, to_viewer)` | f times the light's cosine, and the density of drawing the
-/// light | | `draw(fixed, u)` | a light for a view; of a reciprocal model also a view for a light |
+/// | `weigh(to_light, to_viewer)` | f times the light's cosine, and the density of that light |
+/// | `draw(fixed, u)` | samples a light for a view; if reciprocal, also a view for a light |
 /// | `albedo(direction)` | share of the light from there that is reflected |
 ///
 /// and one that is not reciprocal, for the way from the light to the view:
@@ -16,11 +16,11 @@
 /// | operation | meaning |
 /// |---|---|
 /// | `weigh_view(to_light, to_viewer)` | f times the viewer's cosine, and the density of the view |
-/// | `draw_view(to_light, u)` | a view for a light |
-/// | `albedo_of_view(to_viewer)` | radiance seen from there under an even environment |
+/// | `draw_view(to_light, u)` | samples a view for a light |
+/// | `albedo_of_view(to_viewer)` | radiance seen from there under a uniform environment |
 ///
-/// The directions that a core is given are unit with z > 0. Those that it draws are unit, or have z
-/// <= 0, which makes a null sample. Where the value alone takes less time than
+/// The directions that a core is given are unit with z > 0. Those that it samples are unit, or have
+/// z <= 0, which makes a null sample. Where the value alone takes less time than
 /// `weigh`, or is needed to make the tables of `draw`, a core also has `f_cos(to_light,
 /// to_viewer)`, and it may have that for spans.
 
@@ -65,12 +65,13 @@ concept HasBatches = requires(const Core &core, std::span<const glm::vec3> a, st
 
 namespace detail {
 
-/// A drawn direction with what the core weighs it to. Empty where it cannot have been drawn.
+/// A sampled direction with what the core weighs it to. Empty where its density is 0.
 inline std::optional<SampledDirection> weighed_sample(const glm::vec3 &direction,
                                                       const WeighedLight &weighed) {
     if (!(weighed.pdf_per_sr > 0))
         return std::nullopt;
-    // Made in place: a copy would be read in other pieces than it was written in, and waited for
+    // Made in place: a copy would be read in other pieces than it was written in, which defeats
+    // store forwarding
     std::optional<SampledDirection> made(std::in_place);
     const float over = 1 / weighed.pdf_per_sr;
     made->direction = direction;
@@ -80,7 +81,7 @@ inline std::optional<SampledDirection> weighed_sample(const glm::vec3 &direction
     return made;
 }
 
-/// Draws a light for a view with z > 0.
+/// Samples a light for a view with z > 0.
 template <class Core>
 std::optional<SampledDirection> sample_light(const Core &core, const glm::vec3 &to_viewer,
                                              const glm::vec3 &u) {
@@ -90,7 +91,7 @@ std::optional<SampledDirection> sample_light(const Core &core, const glm::vec3 &
     return weighed_sample(to_light, core.weigh(to_light, to_viewer));
 }
 
-/// Draws a view for a light with z > 0.
+/// Samples a view for a light with z > 0.
 template <class Core>
 std::optional<SampledDirection> sample_view(const Core &core, const glm::vec3 &to_light,
                                             const glm::vec3 &u) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Draws one direction for another from tables, for models whose formula cannot be inverted.
+/// Samples one direction for another from tables, for models whose formula cannot be inverted.
 
 #include <functional>
 #include <vector>

@@ -12,7 +12,7 @@
 
 namespace tsuya {
 
-/// Draws a point of [0,1) x [0,1) with a density proportional to the weight of its cell.
+/// Samples a point of [0,1) x [0,1) with a density proportional to the weight of its cell.
 class Distribution2D {
   public:
     Distribution2D() = default;
@@ -65,7 +65,7 @@ inline Distribution2D::Draw Distribution2D::invert(const float *cdf, const std::
                                                    std::size_t cells, float u) {
     const auto step = static_cast<std::size_t>(static_cast<int>(u * static_cast<float>(cells)));
     std::size_t cell = guide[std::min(step, cells - 1)];
-    // Mostly the first cell or the next, without a branch that could not be foretold
+    // Mostly the first cell or the next. Branch-free: this branch is unpredictable
     cell +=
         static_cast<std::size_t>(cell + 1 < cells) & static_cast<std::size_t>(cdf[cell + 1] <= u);
     while (cell + 1 < cells && cdf[cell + 1] <= u)

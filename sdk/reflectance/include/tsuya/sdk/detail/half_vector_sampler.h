@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Draws one direction for another by the half vector between them, of those that the two can see.
+/// Samples one direction for another by the half vector between them, of those that the two can
+/// see.
 
 #include <array>
 #include <cstddef>
@@ -17,29 +18,29 @@ namespace tsuya {
 /// term, what the horizon hides. The square of half vectors is divided into blocks. Which block is
 /// taken follows the whole model, from tables for a grid of fixed directions; where in the block,
 /// the distribution of half vectors alone. Between the fixed directions of the grid one of the four
-/// about is taken by chance, and the density is their mean: exact everywhere. A share of the draws
-/// follows the cosine of the drawn direction, as much as the model reflects evenly.
+/// about is taken by chance, and the density is their mean: exact everywhere. A share of the
+/// samples follows the cosine of the sampled direction, as much as the model reflects diffusely.
 class HalfVectorSampler {
   public:
     /// Distribution of half vectors at a unit one, up to a factor
     using Facets = std::function<float(const glm::vec3 &half)>;
-    /// The model without its even part: f times the cosine of the drawn direction, for two
+    /// The model without its diffuse part: f times the cosine of the sampled direction, for two
     /// directions with z > 0
     using Model = std::function<float(const glm::vec3 &fixed, const glm::vec3 &drawn)>;
 
     HalfVectorSampler() = default;
     /// \param mirrored the model is the same for directions mirrored across the weft or the warp
     /// \param facets, model >= 0, finite; called from several threads
-    /// \param even albedo of the even part
+    /// \param even albedo of the diffuse part
     HalfVectorSampler(bool mirrored, const Facets &facets, const Model &model, float even);
 
     /// \param fixed unit, z > 0
     /// \return unit, also below the horizon; zero where the half vector looks away
     glm::vec3 sample(const glm::vec3 &fixed, const glm::vec3 &u) const;
-    /// Density of the drawn direction, 1/sr.
+    /// Density of the sampled direction, 1/sr.
     /// \param half unit half vector of the two directions
     /// \param facing cosine of either direction with it
-    /// \param drawn_cosine of the drawn direction with the normal
+    /// \param drawn_cosine of the sampled direction with the normal
     float pdf(const glm::vec3 &fixed, const glm::vec3 &half, float facing,
               float drawn_cosine) const;
     std::size_t bytes() const;
@@ -54,7 +55,7 @@ class HalfVectorSampler {
         std::array<std::array<float, kParts>, kParts> density{};    ///< of the unit square
         glm::vec2 point(const glm::vec2 &u) const;
     };
-    /// What is drawn for one fixed direction of the grid.
+    /// What is sampled for one fixed direction of the grid.
     struct Node {
         Distribution2D blocks;
         float even_draws = 1;

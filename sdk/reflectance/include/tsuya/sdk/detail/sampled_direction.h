@@ -6,15 +6,15 @@
 
 namespace tsuya {
 
-/// A drawn direction in the cloth's frame.
+/// A sampled direction in the cloth's frame.
 struct SampledDirection {
     glm::vec3 direction{0, 0, 1}; ///< unit, z > 0
-    float weight = 0;             ///< f times the cosine of the drawn direction over pdf
+    float weight = 0;             ///< f times the cosine of the sampled direction over pdf
     float pdf_per_sr = 0;
     float weft = 0; ///< part of the weight, as of WeighedLight
 };
 
-/// The value of a BRDF with the density of drawing that light.
+/// The value of a BRDF with the density of sampling that light.
 struct WeighedLight {
     float f_cos = 0; ///< f times the light's cosine, 1/sr
     float pdf_per_sr = 0;
