@@ -34,6 +34,7 @@ struct FabricSimulate final : Command {
     fs::path output{};
     std::optional<double> step_deg{};
     double wavelength_nm = 589;
+    std::string part = "all";
     lab::GoniometerSettings settings{};
     bool json = false;
 
@@ -52,6 +53,9 @@ struct FabricSimulate final : Command {
                  "trace photons until the relative standard error is below E")
             .range(1e-6, 1);
         o.option("--time", &settings.seconds, "S", "trace photons for S seconds").range(1e-3, 1e6);
+        o.option("--part", &part, "PART",
+                 "light to measure: surface never entered a filament, body has been in one")
+            .one_of({"all", "surface", "body"});
         o.option("--wavelength", &wavelength_nm, "NM",
                  "wavelength in nanometres, for the refractive index and the dye")
             .range(380, 780);
@@ -73,6 +77,9 @@ struct FabricSimulate final : Command {
             console.warning(weave_name + ": its symmetry is " + std::string(name_of(symmetry)) +
                             " and not " + std::string(name_of(directions.symmetry)) +
                             ", as the table will claim");
+        settings.part = part == "surface" ? lab::LightPart::surface
+                        : part == "body"  ? lab::LightPart::body
+                                          : lab::LightPart::all;
         settings.checkpoint = output;
         settings.checkpoint += ".checkpoint";
         scene::prepare_output_file(output, {".csv"});
@@ -115,6 +122,8 @@ struct FabricSimulate final : Command {
         text << "simulated from " << weave_name << "; " << photons << " photons for "
              << measured.lights.size() << " directions of light; seed " << settings.seed << "; "
              << wavelength_nm << " nm";
+        if (part != "all")
+            text << "; " << part << " part";
         keys["provenance"] = text.str();
     }
 

@@ -287,6 +287,80 @@ TEST(ClearFilaments, AreReciprocal) {
     }
 }
 
+/// Largest |z| of the values and energies of `a` + `b` against those of `all`.
+double sum_z(const Measurement &a, const Measurement &b, const Measurement &all) {
+    double largest = 0;
+    for (std::size_t i = 0; i < all.table.rows.size(); ++i) {
+        const ReflectanceRow &x = a.table.rows[i], &y = b.table.rows[i], &z = all.table.rows[i];
+        const double sigma = std::hypot(std::hypot(x.sigma_per_sr, y.sigma_per_sr), z.sigma_per_sr);
+        largest =
+            std::max(largest, std::abs(x.brdf_per_sr + y.brdf_per_sr - z.brdf_per_sr) / sigma);
+    }
+    return largest;
+}
+
+TEST(Parts, AreSurfaceAndBody) {
+    const Directions directions{.pairs = ViewGrid(40, 70, 30).pairs};
+    const FilamentRepeat dyed = close_layers({.transmission = 0.8});
+    GoniometerSettings settings{.photons = 1 << 17, .part = LightPart::surface};
+    const Measurement surface = measure(dyed, directions, settings);
+    settings.part = LightPart::body;
+    settings.seed = 2;
+    const Measurement body = measure(dyed, directions, settings);
+    settings.part = LightPart::all;
+    settings.seed = 3;
+    const Measurement all = measure(dyed, directions, settings);
+    EXPECT_LT(sum_z(surface, body, all), sidak_bound(36));
+    EXPECT_GT(sum_z(surface, surface, all), sidak_bound(36)) << "control";
+    EXPECT_NEAR(surface.lights[0].reflected + body.lights[0].reflected, all.lights[0].reflected,
+                4 * (body.lights[0].reflected_sigma + all.lights[0].reflected_sigma));
+    // Black filaments have no body
+    settings.part = LightPart::body;
+    const Measurement black = measure(close_layers({}), directions, settings);
+    EXPECT_EQ(black.lights[0].reflected, 0);
+    EXPECT_EQ(black.table.rows[0].brdf_per_sr, 0);
+    const Measurement whole = measure(close_layers({}), directions, {.photons = 1 << 15});
+    const Measurement as_surface =
+        measure(close_layers({}), directions, {.photons = 1 << 15, .part = LightPart::surface});
+    EXPECT_EQ(whole.table.rows[5].brdf_per_sr, as_surface.table.rows[5].brdf_per_sr);
+}
+
+TEST(Delustrant, TurnsLightByItsMeanCosine) {
+    Random random(1, 2, 3);
+    const glm::vec3 ahead = toward(1, 2);
+    for (const double g : {0.0, 0.69, -0.5}) {
+        double sum = 0;
+        constexpr int kCount = 200000;
+        for (int i = 0; i < kCount; ++i)
+            sum += glm::dot(ahead, scattered(ahead, g, random)) / kCount;
+        EXPECT_NEAR(sum, g, 5e-3);
+    }
+}
+
+TEST(Delustrant, KeepsLightAndTurnsItBack) {
+    for (const FilamentSection section : {FilamentSection::round, FilamentSection::triangular}) {
+        FilamentOptics optics{.section = section, .transmission = 1};
+        const auto report = [&] {
+            return measure(close_layers(optics), {.pairs = {{0.3, 0.4, 0, 0}}},
+                           {.photons = 1 << 14})
+                .lights[0];
+        };
+        const LightReport bright = report();
+        optics.scattering_length = 2e-6; // 10 events a diameter, to all sides alike
+        const LightReport dull = report();
+        EXPECT_NEAR(dull.reflected + dull.transmitted, 1, 1e-12);
+        EXPECT_GT(dull.reflected, bright.reflected + 4 * bright.reflected_sigma);
+        optics.transmission = 0.999; // control: longer ways within
+        EXPECT_LT(report().reflected + report().transmitted, 1 - 1e-4);
+    }
+    const FilamentRepeat dull = close_layers({.refractive_index = kIndex,
+                                              .surface_roughness = 0.1,
+                                              .transmission = 0.95,
+                                              .scattering_length = 10e-6,
+                                              .scattering_anisotropy = 0.69});
+    EXPECT_LT(reciprocity_z(dull, Normals::visible), sidak_bound(12));
+}
+
 TEST(ClearFilaments, AreKeptApart) {
     FilamentRepeat repeat = close_layers({.transmission = 0.5});
     for (Filament &f : repeat.filaments)

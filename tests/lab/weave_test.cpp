@@ -208,6 +208,22 @@ TEST_F(WeaveFile, UnknownKeysAreRefusedWithASuggestion) {
     EXPECT_TRUE(suggested);
 }
 
+TEST_F(WeaveFile, TellsTheLustreByNameOrLength) {
+    const Weave cloth = read_weave(write("lustre.toml", "[weave]\ndraft = \"plain\"\n"
+                                                        "[warp]\nlustre = \"dull\"\n"
+                                                        "[weft]\nlustre = 25\n"));
+    EXPECT_EQ(cloth.warp.scattering_length, scattering_length("dull"));
+    EXPECT_LT(scattering_length("dull"), scattering_length("semi-dull"));
+    EXPECT_EQ(scattering_length("bright"), 0);
+    EXPECT_NEAR(cloth.weft.scattering_length, 25e-6, 1e-12);
+    EXPECT_NEAR(optics(cloth.weft, 550).scattering_length, 25e-6, 1e-12);
+    for (const char *bad : {"\"dul\"", "0", "true"})
+        EXPECT_FALSE(
+            problems_of("[weave]\ndraft = \"plain\"\n[warp]\nlustre = " + std::string(bad) + "\n")
+                .empty())
+            << bad;
+}
+
 TEST_F(WeaveFile, AWifGivesDraftSpacingAndColour) {
     const std::string text =
         "[WIF]\nVersion=1.1\n[WARP]\nThreads=4\nColor=1\nUnits=centimeters\nSpacing=0.05\n"

@@ -14,12 +14,17 @@ namespace tsuya::lab {
 // What light meets on its way through a filament.
 struct FilamentBody {
     RoughDielectric boundary;
-    double depth; // optical, of a diameter: what the dye absorbs
+    double depth;      // optical, of a diameter: what the dye absorbs
+    double scattering; // events per metre
+    double anisotropy; // mean cosine of their turns
 
     // \param optics with a transmission above 0
     FilamentBody(const FilamentOptics &optics, const RoughSurface &surface,
                  RoughDielectric::Normals normals = RoughDielectric::Normals::visible);
 };
+
+// The direction after a particle of delustrant. \param g mean cosine of the turn
+glm::vec3 scattered(const glm::vec3 &direction, double g, Random &random);
 
 struct FilamentMatter {
     RoughSurface surface;

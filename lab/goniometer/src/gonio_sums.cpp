@@ -55,14 +55,15 @@ std::uint64_t fingerprint(const FilamentRepeat &repeat, const Directions &direct
     }
     for (const FilamentOptics &o : repeat.optics) {
         h.value(o.section);
-        for (const double v :
-             {o.corner_rounding, o.refractive_index, o.surface_roughness, o.transmission})
+        for (const double v : {o.corner_rounding, o.refractive_index, o.surface_roughness,
+                               o.transmission, o.scattering_length, o.scattering_anisotropy})
             h.value(v);
     }
     for (const DirectionPair &p : directions.pairs)
         for (const double v : {p.theta_i, p.phi_i, p.theta_r, p.phi_r})
             h.value(v);
     h.value(settings.seed);
+    h.value(settings.part);
     h.value(settings.max_bounces);
     h.value(settings.energy_bound);
     h.value(settings.turn_per_segment);

@@ -68,6 +68,11 @@ void check_optics(const FilamentRepeat &repeat) {
         problems.need(!(o.transmission > 0) || o.refractive_index >= kLeastIndex,
                       "nothing bends the light that goes through", where + "refractive_index",
                       "expected 1.05 or more where the transmission is above 0");
+        problems.need(o.scattering_length >= 0 && std::isfinite(o.scattering_length),
+                      "the scattering length is out of range", where + "scattering_length",
+                      "expected 0 (no delustrant) or more metres");
+        problems.need(std::abs(o.scattering_anisotropy) <= 0.99, "the anisotropy is out of range",
+                      where + "scattering_anisotropy", "expected -0.99 to 0.99");
         problems.need(o.corner_rounding >= 0 && o.corner_rounding <= 1,
                       "the rounding of the corners is out of range", where + "corner_rounding",
                       "expected 0 to 1");
@@ -181,7 +186,7 @@ bool Goniometer::round() {
         for (std::uint64_t b = first; b < end; ++b)
             tasks.push_back({i, b, Sums()});
     }
-    const WalkRules rules{settings_.max_bounces, settings_.energy_bound};
+    const WalkRules rules{settings_.max_bounces, settings_.energy_bound, settings_.part};
     tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t t) {
         Task &task = tasks[t];
         if (progress_.stopped() || out_of_time())

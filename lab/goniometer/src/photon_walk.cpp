@@ -35,9 +35,10 @@ std::uint32_t every_second_bit(std::uint32_t x) {
 struct Photon {
     glm::vec3 origin, direction;
     double energy = 1;
-    bool first = true;   // has met nothing
-    bool inside = false; // a filament
-    Inside place{};      // where, if so
+    bool first = true;    // has met nothing
+    bool inside = false;  // a filament
+    bool entered = false; // has been in one
+    Inside place{};       // where, if so
 };
 
 class Walker {
@@ -78,6 +79,11 @@ class Walker {
     void connect_exit(const Meeting &m, const Frame &frame, const glm::vec3 &from, double energy);
     // To the next meeting
     Fate advance(Photon &photon, Meeting &meeting);
+    Fate within(Photon &photon, Meeting &meeting);
+    // Whether light that has or has not been in a filament is of the part that is measured
+    bool counts(bool entered) const {
+        return rules_.part == LightPart::all || (rules_.part == LightPart::body) == entered;
+    }
     // The next leg of the path after a meeting; false where it ends
     bool reflect(const Meeting &meeting, Photon &photon);
     bool pass(Meeting &meeting, Photon &photon);
@@ -173,7 +179,8 @@ bool Walker::reflect(const Meeting &meeting, Photon &photon) {
     const Frame frame = make_frame(meeting.normal);
     glm::vec3 from = frame.to_local(-photon.direction);
     from.z = std::max(from.z, kLeastCosine);
-    connect(meeting, frame, from, photon.first, photon.energy);
+    if (counts(photon.entered))
+        connect(meeting, frame, from, photon.first, photon.energy);
     const RoughSurface::Reflection reflection =
         matter_[meeting.system].surface.sample(from, random_);
     photon.direction = frame.to_world(reflection.direction);
@@ -191,13 +198,16 @@ bool Walker::pass(Meeting &meeting, Photon &photon) {
     const Frame frame = make_frame(photon.inside ? -meeting.normal : meeting.normal);
     glm::vec3 from = frame.to_local(-photon.direction);
     from.z = std::max(from.z, kLeastCosine);
-    if (photon.inside)
+    if (photon.inside && counts(true))
         connect_exit(meeting, frame, from, photon.energy);
-    else
+    else if (!photon.inside && counts(photon.entered))
         connect(meeting, frame, from, photon.first, photon.energy);
     const RoughDielectric::Passage passage = boundary.sample(from, side, random_);
     photon.direction = frame.to_world(passage.direction);
     photon.inside = photon.inside != passage.through;
+    photon.entered = photon.entered || photon.inside;
+    if (photon.entered && rules_.part == LightPart::surface)
+        return false;
     if (photon.inside)
         photon.place = {meeting.on_cone ? meeting.point : meeting.point - kOffset * meeting.normal,
                         meeting.segment, meeting.on_cone};
@@ -207,16 +217,30 @@ bool Walker::pass(Meeting &meeting, Photon &photon) {
 }
 
 Fate Walker::advance(Photon &photon, Meeting &meeting) {
-    if (!photon.inside)
-        return trace(photon.origin, photon.direction, meeting);
-    ++rays_;
-    const Strand &strand =
-        scene_.cell().strands[scene_.strand(photon.place.segment, photon.place.on_cone)];
-    float travelled;
-    const Fate fate = scene_.within(photon.place, photon.direction, kForever, meeting, travelled);
-    const double depth = matter_[strand.system].body->depth / (2 * strand.radius);
-    photon.energy *= std::exp(-depth * travelled);
-    return fate;
+    return photon.inside ? within(photon, meeting)
+                         : trace(photon.origin, photon.direction, meeting);
+}
+
+Fate Walker::within(Photon &photon, Meeting &meeting) {
+    const FilamentCell &cell = scene_.cell();
+    const Strand &strand = cell.strands[scene_.strand(photon.place.segment, photon.place.on_cone)];
+    const FilamentBody &body = *matter_[strand.system].body;
+    const double depth = body.depth / (2 * strand.radius), turns = body.scattering * cell.unit;
+    for (;;) {
+        const double reach = turns > 0 ? -std::log(random_.open_unit()) / turns : kForever;
+        float travelled;
+        ++rays_;
+        const Fate fate = scene_.within(photon.place, photon.direction, static_cast<float>(reach),
+                                        meeting, travelled);
+        photon.energy *= std::exp(-depth * travelled);
+        if (fate != Fate::lost || turns <= 0)
+            return fate;
+        photon.direction = scattered(photon.direction, body.anisotropy, random_);
+        if (!survives(photon.energy)) {
+            photon.energy = 0;
+            return Fate::lost;
+        }
+    }
 }
 
 void Walker::store(Sums &sums) {
@@ -243,7 +267,7 @@ void Walker::photon(const glm::vec2 &place, Sums &sums) {
     for (int bounce = 0;; ++bounce) {
         Meeting meeting;
         const Fate fate = advance(photon, meeting);
-        const double energy = photon.energy;
+        const double energy = counts(photon.entered) ? photon.energy : 0;
         if (fate == Fate::above) {
             sums.reflected += energy;
             sums.reflected_square += energy * energy;

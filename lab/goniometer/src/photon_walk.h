@@ -39,6 +39,7 @@ struct Sums {
 struct WalkRules {
     int max_bounces = 0; // meetings after the first; 0: all
     double energy_bound = 0.5;
+    LightPart part = LightPart::all;
 };
 
 // One batch. \param random the batch's own. Returns the number of rays.

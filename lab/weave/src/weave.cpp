@@ -8,6 +8,14 @@
 namespace tsuya::lab {
 namespace {
 
+// Delustrant: particles of titanium dioxide (anatase, index 2.55, 3900 kg/m^3), 0.3 micrometres
+// across, in polyester (index 1.575, 1380 kg/m^3): 2 % by weight where it is dull [Delustrant], 0.3
+// % where it is semi-dull, which is usual in the trade. Theirs is a scattering cross-section of 3.9
+// times their own by Mie's theory at 589 nm, computed by us, so that light goes 2 d / (3 * 3.9 *
+// share of the volume).
+constexpr double kSemiDull = 49e-6, kDull = 7.3e-6; // metres
+constexpr double kAnisotropy = 0.69;                // mean cosine, of the same calculation
+
 struct Range {
     const char *name;
     double value, low, high;
@@ -27,6 +35,7 @@ void check_yarn(const Yarn &yarn, const std::string &where) {
         {"transmission (red)", yarn.transmission[0], 0, 1},
         {"transmission (green)", yarn.transmission[1], 0, 1},
         {"transmission (blue)", yarn.transmission[2], 0, 1},
+        {"scattering length in micrometres", yarn.scattering_length * 1e6, 0, 1e6},
     };
     for (const Range &range : ranges)
         if (!(range.value >= range.low && range.value <= range.high))
@@ -65,6 +74,18 @@ double transmission(const Yarn &yarn, double wavelength_nm) {
                      std::min((kGreen_nm - wavelength_nm) / (kGreen_nm - kBlue_nm), 1.0));
 }
 
+double scattering_length(std::string_view lustre, const std::string &where) {
+    const std::vector<std::string> names{"bright", "semi-dull", "dull"};
+    if (lustre == "bright")
+        return 0;
+    if (lustre == "semi-dull")
+        return kSemiDull;
+    if (lustre == "dull")
+        return kDull;
+    throw Error(
+        {"unknown lustre \"" + std::string(lustre) + "\"", where, accepted_names(lustre, names)});
+}
+
 FilamentOptics optics(const Yarn &yarn, double wavelength_nm) {
     return {.section = yarn.section,
             .corner_rounding = yarn.corner_rounding,
@@ -72,7 +93,9 @@ FilamentOptics optics(const Yarn &yarn, double wavelength_nm) {
                                     ? *yarn.refractive_index
                                     : refractive_index(yarn.material, wavelength_nm),
             .surface_roughness = yarn.surface_roughness,
-            .transmission = transmission(yarn, wavelength_nm)};
+            .transmission = transmission(yarn, wavelength_nm),
+            .scattering_length = yarn.scattering_length,
+            .scattering_anisotropy = kAnisotropy};
 }
 
 } // namespace tsuya::lab

@@ -41,6 +41,16 @@ void read_transmission(const Section &section, Yarn &yarn) {
         yarn.transmission = {(*values)[0], (*values)[1], (*values)[2]};
 }
 
+// A name or micrometres.
+void read_lustre(const Section &section, Yarn &yarn) {
+    if (section.is_text("lustre")) {
+        const auto name = section.text("lustre");
+        note(section, "lustre", [&] { yarn.scattering_length = scattering_length(*name, ""); });
+    } else if (const auto length = section.number("lustre", 0.1, 1e6)) {
+        yarn.scattering_length = *length * 1e-6;
+    }
+}
+
 void read_yarn(const Section &section, Yarn &yarn) {
     yarn.per_cm = section.number("per_cm", 1, 500).value_or(yarn.per_cm);
     yarn.width = section.number("width_mm", 0.001, 10).value_or(yarn.width * 1e3) * 1e-3;
@@ -59,6 +69,7 @@ void read_yarn(const Section &section, Yarn &yarn) {
         yarn.refractive_index = *index;
     yarn.surface_roughness =
         section.number("surface_roughness", 0, 1).value_or(yarn.surface_roughness);
+    read_lustre(section, yarn);
     read_transmission(section, yarn);
     if (yarn.width > yarn.spacing())
         section.problem(section.has("width_mm") ? "width_mm" : "per_cm",

@@ -12,7 +12,8 @@
 /// What enters a filament whose `transmission` is 0 is lost. Any other filament is a body with a
 /// rough boundary: light refracts in and out by the same facets and the exact Fresnel term, total
 /// reflection included, and is absorbed along its way by the dye. What the roughness loses there
-/// comes back too, so that a clear filament keeps all light. All of this is reciprocal.
+/// comes back too, so that a clear filament keeps all light. Particles of delustrant in it turn
+/// light by the angle of [Henyey], after ways of exponential lengths. All of this is reciprocal.
 /// Where light goes through filaments, all of them are made thinner by one factor until each two
 /// are apart by 1 % of the sum of their radii; an overlap of more than 20 % is an error.
 ///
@@ -57,6 +58,13 @@ Directions paper_directions(double theta_step_deg = 3, double phi_step_deg = 5);
 /// The directions of a table.
 Directions directions_of(const ReflectanceTable &table);
 
+/// Which light is measured.
+enum class LightPart {
+    all,
+    surface, ///< light that never entered a filament
+    body     ///< light that has been in one: what the dye colours
+};
+
 struct GoniometerSettings {
     /// Per direction of light, > 0; rounded up to whole batches of kPhotonsPerBatch.
     std::uint64_t photons = 1u << 20;
@@ -66,7 +74,8 @@ struct GoniometerSettings {
     double seconds = 0;     ///< stop after about this long; 0: never. The one stop that varies
     std::uint32_t seed = 1; ///< other seeds give independent results
     int threads = 0;        ///< 0: all. The result does not depend on it
-    int max_bounces = 0;    ///< reflections after the first that are followed; 0: all
+    LightPart part = LightPart::all; ///< of what leaves the cloth; energies are of it too
+    int max_bounces = 0;             ///< reflections after the first that are followed; 0: all
     /// Photons with less energy than this, of 1 at the start, go on by chance with this energy:
     /// nothing is lost on average. In (0, 1].
     double energy_bound = 0.5;

@@ -30,10 +30,15 @@ struct FilamentOptics {
     double corner_rounding = 0.3;    ///< of a section that is not round: 0 sharp, 1 round
     double refractive_index = 1.6;   ///< >= 1
     double surface_roughness = 0.08; ///< standard deviation of the surface's slope, radians
-    /// Share of the light that comes through a diameter of the filament (2 Filament::radius, also of
-    /// sections that are not round), 0 (black) to 1 (clear): the dye absorbs
-    /// -ln(transmission) / diameter per length, by Beer's law. Above 0 the index is 1.05 or more.
+    /// Share of the light that comes through a diameter of the filament (2 Filament::radius, also
+    /// of sections that are not round), 0 (black) to 1 (clear): the dye absorbs -ln(transmission) /
+    /// diameter per length, by Beer's law. Above 0 the index is 1.05 or more.
     double transmission = 0.0;
+    /// Mean way of light within a filament between two particles of delustrant, metres; 0: there is
+    /// none. Only where the transmission is above 0.
+    double scattering_length = 0;
+    /// Mean cosine of the angle by which a particle turns light, -0.99 to 0.99 [Henyey].
+    double scattering_anisotropy = 0;
 };
 
 /// A rectangle of cloth that tiles the plane.

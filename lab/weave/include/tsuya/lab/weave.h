@@ -14,6 +14,7 @@
 ///     section = "round"          # triangular, trilobal
 ///     tension = 1                # warp over weft: the one that is pulled more lies straighter
 ///     material = "polyester"     # silk, cellulose; or refractive_index = 1.6
+///     lustre = "semi-dull"       # bright, dull; or micrometres from one scattering to the next
 ///     transmission = [0, 0, 0]   # of a diameter of the dyed filament: red, green, blue
 
 #include <array>
@@ -51,6 +52,9 @@ struct Yarn {
     /// (550 nm) and blue (465 nm), each 0 to 1: the dye. 0 is black.
     std::array<double, 3> transmission{0, 0, 0};
 
+    /// Mean way of light within a filament between two particles of delustrant, metres; 0: none.
+    double scattering_length = 0;
+
     double spacing() const { return 0.01 / per_cm; } ///< metres between the axes
     double thickness() const { return width * flattening; }
 };
@@ -84,6 +88,10 @@ Symmetry symmetry_of(const Weave &weave);
 
 /// Transmission of the dye at a wavelength, linear between the three bands and constant beyond.
 double transmission(const Yarn &yarn, double wavelength_nm);
+/// The scattering length in metres of a lustre by name: `bright` (no delustrant), `semi-dull`,
+/// `dull`. Throws Error naming `where` with the names that would be accepted.
+double scattering_length(std::string_view lustre, const std::string &where = "lustre");
+
 /// Optics of the filaments of a yarn at a wavelength.
 FilamentOptics optics(const Yarn &yarn, double wavelength_nm);
 
