@@ -9,12 +9,12 @@ program=$1
 watch=$2
 guest=$3
 if [ -z "${TSUYA_GPIOBED:-}" ]; then
-    echo "skipped: TSUYA_GPIOBED does not name the folder of run-with-gpio"
+    echo "tsuya: skipped: TSUYA_GPIOBED does not name the folder of run-with-gpio"
     exit 77
 fi
 bed=$TSUYA_GPIOBED/run-with-gpio
 if ! "$bed" --check; then
-    echo "skipped: $bed cannot run here"
+    echo "tsuya: skipped: $bed cannot run here"
     exit 77
 fi
 # Virtual time: load on this computer does not show in the times.

@@ -31,8 +31,8 @@ Findings check_words(const std::vector<TextFile> &files) {
         {absolute("Users/[A-Za-z]+"), machine},
         {absolute("tmp/build[A-Za-z0-9-]*"), machine},
         {std::regex("shared"
-                    "/data"),
-         "outside data is known by TSUYA_TEST_DATA", ".ci/run"},
+                    "/(data|cases)"),
+         "outside data is known by TSUYA_TEST_DATA and TSUYA_TEST_CASES", ".ci/run"},
     }};
     Findings findings;
     for (const TextFile &file : files) {

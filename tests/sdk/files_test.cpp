@@ -72,7 +72,7 @@ TEST(FileErrors, SayWhatWouldHelp) {
 
 TEST(FileErrors, AFullDiskIsNamed) {
     if (!fs::exists("/dev/full"))
-        GTEST_SKIP() << "tsuya: skipped: no /dev/full here";
+        GTEST_SKIP() << "no /dev/full here";
     std::ofstream full("/dev/full", std::ios::binary);
     errno = 0;
     full << std::string(100'000, 'x') << std::flush;
