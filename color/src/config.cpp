@@ -159,12 +159,12 @@ Image apply(const OCIO::ConstCPUProcessorRcPtr &processor, const Image &xyz, dou
                 const float *in = xyz.pixel(x, y);
                 glm::vec3 &v = row[static_cast<std::size_t>(x)];
                 v = factor * glm::vec3(in[from[0]], in[from[1]], in[from[2]]);
-                std::copy_n(&v.x, 3, out + 3 * x);
+                std::copy_n(&v.x, 3, rgb.pixel(x, y));
             }
             OCIO::PackedImageDesc description(out, xyz.width, 1, OCIO::CHANNEL_ORDERING_RGB);
             processor->apply(description);
             for (int x = 0; x < xyz.width; ++x)
-                clamp_pixel(row[static_cast<std::size_t>(x)], out + 3 * x);
+                clamp_pixel(row[static_cast<std::size_t>(x)], rgb.pixel(x, y));
         }
     });
     return rgb;

@@ -40,7 +40,7 @@ class Encoder {
     }
 
     void open(const OIIO::ImageSpec &spec) { check(output_->open(path_.string(), spec)); }
-    void write(int first_row, int end_row, OIIO::TypeDesc type, const void *rows) {
+    void write(int first_row, int end_row, const OIIO::TypeDesc &type, const void *rows) {
         check(output_->write_scanlines(first_row, end_row, 0, type, rows));
     }
     void finish() {

@@ -33,8 +33,8 @@ TEST(Adaptation, BradfordHasPublishedValues) {
 }
 
 TEST(Adaptation, Cat02HasPublishedCones) {
-    // [CIE159] the cones of a white come out by the printed matrix: scaling blue alone moves only the
-    // third cone, so column sums of the matrix show in the adapted colour.
+    // [CIE159] the cones of a white come out by the printed matrix: scaling blue alone moves only
+    // the third cone, so column sums of the matrix show in the adapted colour.
     const glm::dvec3 e(1.0), blue(1.0, 1.0, 2.0);
     const glm::dmat3 m = adaptation_matrix(Adaptation::cat02, blue, e);
     // Cones of (1,1,2): 0.8376, 1.0061, 1.9834; of (1,1,1): 1, 1, 1 (rows sum to 1).

@@ -6,5 +6,5 @@ int main() {
     const tsuya::lab::PulseReport report =
         tsuya::lab::run_pulse_job({.train = {.count = 5}, .simulate = true});
     std::printf("%zu pulses\n", report.pulses.size());
-    return report.pulses.size() == 5 && tsuya::lab::gpio_lines().size() < 1'000'000 ? 0 : 1;
+    return report.pulses.size() == 5 && tsuya::lab::gpio_lines().lines.size() < 1'000'000 ? 0 : 1;
 }

@@ -32,7 +32,7 @@ foreach(component IN LISTS COMPONENTS ITEMS package)
 endforeach()
 
 # The package can be moved: it names neither the build tree nor the sources.
-file(GLOB_RECURSE package_files "${prefix}/*.cmake")
+file(GLOB_RECURSE package_files "${prefix}/*.cmake" "${prefix}/*.pc")
 foreach(package_file IN LISTS package_files)
     file(READ "${package_file}" text)
     foreach(place IN ITEMS "${BUILD}" "${SOURCE}/")
@@ -57,6 +57,23 @@ foreach(component IN LISTS COMPONENTS)
     endif()
     run("build a user of ${component}" ${CMAKE_COMMAND} --build "${SCRATCH}/${component}")
     run("run a user of ${component}" "${SCRATCH}/${component}/consumer")
+endforeach()
+
+# The same with pkg-config alone. Between them these two use every library.
+file(GLOB_RECURSE pc_file "${prefix}/*/tsuya-values.pc")
+cmake_path(GET pc_file PARENT_PATH pc_folder)
+set(ENV{PKG_CONFIG_PATH} "${pc_folder}")
+foreach(component IN ITEMS scene lab)
+    execute_process(COMMAND pkg-config --cflags --libs tsuya-${component}
+        RESULT_VARIABLE status OUTPUT_VARIABLE flags ERROR_VARIABLE out)
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "pkg-config of ${component}: ${out}")
+    endif()
+    separate_arguments(flags UNIX_COMMAND "${flags}")
+    set(user "${SCRATCH}/${component}-pkg-config")
+    run("build a user of ${component} with pkg-config"
+        "${COMPILER}" -std=c++20 "${CONSUMER}/${component}.cpp" -o "${user}" ${flags})
+    run("run a user of ${component} with pkg-config" "${user}")
 endforeach()
 
 # A component that does not exist is refused with the names of those that do.

@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
-
 namespace tsuya::project {
 namespace {
 
@@ -39,7 +37,7 @@ TEST(Repository, CitesWhatReferencesDefine) {
     EXPECT_TRUE(report.findings.empty()) << as_text(report.findings);
     EXPECT_GT(report.citations, 0u);
     for (const std::string &key : report.unused)
-        std::cout << "warning: " << kReferences << ": [" << key << "] is not cited\n";
+        ADD_FAILURE() << kReferences << ": nobody cites [" << key << "]";
 }
 
 TEST(Repository, DocumentsRepeatCompiledCode) {
@@ -154,6 +152,7 @@ CitationReport cited(const std::string &path, const std::string &text) {
 TEST(Citations, AKnownKeyPassesAndAnUnknownOneDoesNot) {
     EXPECT_TRUE(cited("a.cpp", "int x; // [Known] Eq. 15\n").findings.empty());
     EXPECT_TRUE(cited("a.cpp", "int x; // [Known] Eq. 15\n").unused.empty());
+    EXPECT_EQ(cited("a.cpp", "int x; // as everybody knows\n").unused.size(), 1u);
     const std::vector<std::pair<std::string, std::string>> bad{
         {"a.cpp", "int x; // see [Unknown] Eq. 15\n"}, {"a.h", "/* from [Known],\n [Unknown] */\n"},
         {"a.md", "As in ([Unknown], Sect. 2)\n"},      {"a.toml", "x = 1 # [Unknown] Table 1\n"},
@@ -239,9 +238,9 @@ TEST(Links, LeadToFilesAndFolders) {
 
 TEST(Words, MachinesAreFlagged) {
     const std::string sl = "/"; // so that this file does not say the words itself
-    for (const std::string &bad :
-         {sl + "work/main", "cd " + sl + "work", "'" + sl + "root/.cache'",
-          "-B " + sl + "tmp/build-x", "../shared" + sl + "data/x.csv", sl + "home/somebody/x"})
+    for (const std::string &bad : {sl + "work/main", "cd " + sl + "work", "'" + sl + "root/.cache'",
+                                   "-B " + sl + "tmp/build-x", "../shared" + sl + "data/x.csv",
+                                   "../shared" + sl + "cases", sl + "home/somebody/x"})
         EXPECT_EQ(check_words(one_line("a.sh", bad)).size(), 1u) << bad;
     for (const std::string &good : {std::string("network/workflow"), "https://a.org" + sl + "work/",
                                     "$HOME" + sl + "work/x", sl + "workers"})

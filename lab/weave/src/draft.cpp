@@ -159,6 +159,7 @@ void check_draft(const Draft &draft, const std::string &where) {
             fail("weft pick " + std::to_string(p + 1) + " floats for ever",
                  "expected each pick to pass over and under at least one end");
     }
+    // A cloth hangs together unless some of its yarns lie above all others [Clapham].
     const std::size_t yarns = static_cast<std::size_t>(draft.ends + draft.picks);
     if (reached_yarns(draft, false) != yarns || reached_yarns(draft, true) != yarns)
         fail("the cloth falls apart: some of its yarns lie above all others",

@@ -100,7 +100,7 @@ void Section::problem(std::string_view key, const Error &error) const {
 std::optional<std::string> Section::text(std::string_view key) const {
     if (!has(key))
         return std::nullopt;
-    if (const auto value = table_of(table_).get(key)->value_exact<std::string>())
+    if (auto value = table_of(table_).get(key)->value_exact<std::string>())
         return value;
     problem(key, "'" + std::string(key) + "' is not a text", "expected a text in quotes");
     return std::nullopt;

@@ -35,9 +35,9 @@ struct ExrOptions {
 void write_exr(const std::filesystem::path &path, const Image &image,
                const ExrOptions &options = {});
 
-/// Writes light transport as a spectral EXR in the layout of [Fichet]: channel k of group `key` is
-/// `key.S0.<centre>nm` with a decimal comma, e.g. `key.S0.400,000nm`; AOVs are layers
-/// `aov.<name>.<channel>`. Attributes: `tsuya:schema`, `tsuya:basis`, `tsuya:group.<i>`,
+/// Writes light transport as a spectral EXR in the layout of [Fichet]: a channel of the group `key`
+/// is named after its centre with a decimal comma, e.g. `key.S0.400,000nm`; AOVs are layers, e.g.
+/// `aov.normal.X`. Attributes: `tsuya:schema`, `tsuya:basis`, `tsuya:group.<i>`,
 /// `tsuya:aov.<i>`, and the metadata as `tsuya:meta:<key>` (an
 /// entry without a value is left out). Throws Error at the path, also for
 /// sizes that do not agree and names that are empty or used twice.

@@ -28,9 +28,9 @@ bool has_data_of(const std::string &model, const Fabric &fabric);
 
 /// The specular part of a fabric by the named model. `lambert` is the ideal diffuser of the same
 /// albedo under light from straight above; `yarn` takes the fabric's yarns where it has them, else
-/// fits them to the views, with f0 = 0.05, a fibre's, where the fabric has none. Throws Error naming
-/// `where`: an unknown name, with the known ones; a fabric without the data of the model; f0 outside
-/// (0, 1]; as the models themselves.
+/// fits them to the views, with f0 = 0.05, a fibre's, where the fabric has none. Throws Error
+/// naming `where`: an unknown name, with the known ones; a fabric without the data of the model; f0
+/// outside (0, 1]; as the models themselves.
 Brdf make_brdf(const std::string &name, const Fabric &fabric, const std::string &where);
 
 /// The same as a function, for comparisons.

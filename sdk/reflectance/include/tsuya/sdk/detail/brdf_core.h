@@ -129,7 +129,8 @@ template <class Core> class Model : public Core {
     /// equal to the calls one by one but for rounding. The spans are of one length.
     void evaluate_cos(std::span<const glm::vec3> to_light, std::span<const glm::vec3> to_viewer,
                       std::span<float> f_cos) const requires HasBatches<Core> {
-        Core::f_cos(to_light, to_viewer, f_cos);
+        if constexpr (HasBatches<Core>) // clang 14 makes all members of an explicit instantiation
+            Core::f_cos(to_light, to_viewer, f_cos);
     }
     [[gnu::flatten]] std::optional<SampledDirection> sample(const glm::vec3 &to_viewer,
                                                             const glm::vec3 &u) const {
