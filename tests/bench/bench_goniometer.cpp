@@ -80,11 +80,9 @@ void report(benchmark::State &state, const Difference &d, double seconds) {
 }
 
 // Photons of light from straight above, 324 views: time, error against a long run, speed.
-void photons(benchmark::State &state) {
-    static const FilamentRepeat repeat = satin();
+void run_photons(benchmark::State &state, const FilamentRepeat &repeat,
+                 const Measurement &reference) {
     static const Directions directions = normal_incidence_quadrant(5);
-    static const Measurement reference =
-        measure(repeat, directions, {.photons = kLong, .seed = kOtherSeed});
     Measurement m;
     const std::clock_t start = std::clock();
     for (auto _ : state)
@@ -94,6 +92,28 @@ void photons(benchmark::State &state) {
     state.counters["photons_per_s"] = benchmark::Counter(millions, benchmark::Counter::kIsRate);
     state.counters["photons_per_cpu_s"] = millions / seconds;
 }
+
+Measurement long_run(const FilamentRepeat &repeat) {
+    return measure(repeat, normal_incidence_quadrant(5), {.photons = kLong, .seed = kOtherSeed});
+}
+
+void photons(benchmark::State &state) {
+    static const FilamentRepeat repeat = satin();
+    static const Measurement reference = long_run(repeat);
+    run_photons(state, repeat, reference);
+}
+
+void photons_through_silk(benchmark::State &state) { // dyed filaments, triangular and twisted
+    static const FilamentRepeat repeat = build_filaments(weave("silk charmeuse"));
+    static const Measurement reference = long_run(repeat);
+    run_photons(state, repeat, reference);
+}
+BENCHMARK(photons_through_silk)
+    ->RangeMultiplier(8)
+    ->Range(1 << 14, 1 << 20)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1);
 BENCHMARK(photons)
     ->RangeMultiplier(2)
     ->Range(1 << 13, 1 << 20)
