@@ -49,6 +49,10 @@ struct Call {
 /// Takes a call apart. Throws WrongCall.
 Call parse_call(std::span<const CommandEntry> table, int argc, const char *const *argv);
 
+/// Runs the command that a call asks for, or says what is wrong with the call. \return the exit
+/// status of the process
+int run_program(std::span<const CommandEntry> table, int argc, const char *const *argv);
+
 std::unique_ptr<Command> make_tryon();
 std::unique_ptr<Command> make_render();
 std::unique_ptr<Command> make_relight();

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "command.h"
-#include "json_file.h"
+#include "json.h"
 #include "tsuya/lab/gpio_line.h"
 
 namespace tsuya::program {

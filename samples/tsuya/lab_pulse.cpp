@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "command.h"
-#include "json_file.h"
+#include "json.h"
 #include "tsuya/lab/progress_relay.h"
 #include "tsuya/lab/pulse_job.h"
 

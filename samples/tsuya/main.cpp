@@ -1,14 +1,11 @@
 // The program `tsuya`: parses, calls the SDK, prints.
 
 #include <array>
-#include <iostream>
 
 #include "command.h"
-#include "tsuya/sdk/error.h"
 
 namespace {
 
-using namespace tsuya;
 using namespace tsuya::program;
 
 constexpr std::array kCommands{
@@ -36,42 +33,6 @@ constexpr std::array kCommands{
     CommandEntry{"list", "What can be named: lamps, dyes, fabrics, ...", make_list},
 };
 
-int run(Command &command, Console &console) {
-    watch_signals();
-    try {
-        const Status status = command.run(console);
-        console.end_line();
-        std::cout.flush();
-        if (!std::cout) {
-            console.error("the results could not be written to the standard output");
-            return kWrongInput;
-        }
-        return status;
-    } catch (const Error &error) {
-        console.errors(error);
-        return kWrongInput;
-    } catch (const Interrupted &interrupted) {
-        console.error(interrupted.what());
-        return kInterrupted;
-    } catch (const std::exception &error) {
-        console.error(std::string("internal error: ") + error.what());
-        return kWrongInput;
-    }
-}
-
 } // namespace
 
-int main(int argc, char **argv) {
-    Console console;
-    try {
-        const Call call = parse_call(kCommands, argc, argv);
-        console.set_mode(parse_progress_mode(call.progress));
-        if (call.command)
-            return run(*call.command, console);
-        std::cout << call.text << std::flush;
-        return std::cout ? kDone : kWrongInput;
-    } catch (const WrongCall &wrong) {
-        console.errors(wrong);
-        return kWrongCall;
-    }
-}
+int main(int argc, char **argv) { return run_program(kCommands, argc, argv); }

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Runs inside the guest of run-with-gpio: lamp and shutter of a real kernel device.
-# $1: the program gpio_pulses, $2: gpio_watch. Ends with 0 and "gpio: all N checks passed", or with 1.
+# $1: the program gpio_pulses, $2: gpio_watch, $3: tsuya. Ends with 0 and "gpio: all N checks passed", or with 1.
 pulses=$1
 watch=$2
+tsuya=$3
 failed=0
 checks=0
 
@@ -217,12 +218,60 @@ since=$(trace_length)
 run gpiochip0 shutter lamp 20 100 1 low
 check "active low: off is 1 on the wire" was_driven lamp "$since" "1 0 1"
 
+# The commands of the program.
+"$tsuya" lab lines >said 2>&1
+check "lab lines ends with status 0" [ $? = 0 ]
+cat said
+check "lab lines names a line and its direction" says '^gpiochip0  board  0  .*put  *lamp'
+check "lab lines names who holds a line" says '^gpiochip0 .* held$'
+"$tsuya" lab lines --json >said
+check "lab lines --json names the other chip" says '"label": "spare"'
+since=$(trace_length)
+"$tsuya" lab pulse --line shutter --lamp-line lamp --lamp-active-low --count 3 >said 2>&1
+check "lab pulse ends with status 0" [ $? = 0 ]
+check "lab pulse tells the mean width" says 'mean width 20\.0'
+check "lab pulse: each line has its own level" was_driven lamp "$since" "1 0 1"
+check "lab pulse: the shutter, too" was_driven shutter "$since" "0 1 0 1 0 1 0"
+twice_off=0
+for signal in INT TERM HUP QUIT TSTP INT INT INT INT INT; do
+    since=$(trace_length)
+    setsid "$tsuya" lab pulse --line shutter --lamp-line lamp --width-ms 600000 \
+        --period-ms 700000 >said 2>&1 &
+    program=$!
+    sleep 0.5
+    await_level shutter 1
+    kill -s "$signal" "$program"
+    kill -s INT "$program"
+    wait "$program"
+    [ $? = 3 ] && says 'stopped after 0 of 5' && last_driven_off lamp "$since" &&
+        last_driven_off shutter "$since" && twice_off=$((twice_off + 1))
+done
+check "lab pulse: two signals leave all off with status 3, 10 times" [ "$twice_off" = 10 ]
+mkfifo progress
+sleep 100000 <progress &
+reader=$!
+head -c 65536 /dev/zero >progress
+since=$(trace_length)
+"$tsuya" --progress plain lab pulse --line shutter --lamp-line lamp --count 5 >out 2>progress &
+program=$!
+sleep 5
+check "lab pulse: a full pipe holds up no pulse" was_driven shutter "$since" "0 1 0 1 0 1 0 1 0 1 0"
+check "lab pulse: a full pipe holds no lit lamp" was_driven lamp "$since" "0 1 0"
+kill -s INT "$program"
+wait "$program"
+check "lab pulse: a signal ends it when the lines are let go" [ $? = 3 ]
+kill "$reader"
+wait "$reader"
+"$tsuya" --progress plain lab pulse --line shutter --count 3 >said 2>&-
+check "lab pulse: a closed stderr is no error" [ $? = 0 ]
+
 # The chip is unplugged: noticed at once, not at the next edge.
-"$watch" gpiochip1 spare_lamp 1000 >watched 2>&1 &
+"$watch" gpiochip1 twice 100000 >watched 2>&1 &
 watcher=$!
 "$pulses" gpiochip1 2 spare_lamp 600000 700000 5 >said 2>&1 &
 program=$!
 sleep 1
+check "the lamp on the other chip is lit" is_level spare_lamp 1
 start=$(now)
 for live in /sys/kernel/config/gpio-sim/*/live; do
     grep -q spare "${live%/live}"/*/label && echo 0 >"$live"
@@ -233,8 +282,9 @@ end=$(now)
 cat said
 check "an unplugged chip ends with status 1" [ "$status" = 1 ]
 check "an unplugged chip is noticed within 1 s" awk -v a="$start" -v b="$end" 'BEGIN { exit !(b - a < 1) }'
-check "and told" says 'gone\|No such device'
-kill "$watcher" 2>/dev/null
+check "and told" says 'gpiochip1:spare_lamp: the GPIO line is gone: No such device'
+wait "$watcher"
+check "who waits for an input is told, too" grep -q 'gpiochip1:twice: .*No such device' watched
 
 [ "$failed" = 0 ] && echo "gpio: all $checks checks passed"
 [ "$failed" = 0 ]

@@ -248,7 +248,7 @@ TEST(SupervisedPulses, ReportEachPulse) {
     const PulseReport report = run_supervised_pulses(train, shutter, &lamp);
     ASSERT_EQ(report.pulses.size(), 4u);
     EXPECT_GE(report.pulses[3].opened, 30ms);
-    EXPECT_GE(report.mean_width, 2ms);
+    EXPECT_GE(report.pulses[3].closed, 32ms);
 }
 
 TEST(SupervisedPulses, CarryThePulsesDoneBeforeTheWorkWasKilled) {

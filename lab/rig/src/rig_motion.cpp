@@ -1,0 +1,80 @@
+#include "tsuya/lab/rig_motion.h"
+
+#include "rig_sections.h"
+#include "tsuya/sdk/angle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace tsuya::lab {
+namespace {
+
+constexpr double kTurn = 360;
+constexpr double kRounding = 1e-9; // degrees: a limit is reached by an angle that is equal to it
+
+double azimuth_deg(double angle) {
+    const double degrees = std::remainder(angle / kDegree, kTurn);
+    return degrees <= -kTurn / 2 ? degrees + kTurn : degrees;
+}
+
+bool is_azimuth(AxisName name) { return name == AxisName::stage || name == AxisName::lamp_phi; }
+
+/// The reachable position nearest to `from`.
+std::optional<double> reachable_deg(const RigAxis &axis, AxisName name, double angle_deg,
+                                    double from) {
+    std::optional<double> best;
+    const int turns = is_azimuth(name) ? 4 : 0; // more than limits and zero can be apart
+    for (int turn = -turns; turn <= turns; ++turn) {
+        const double position = axis.position_deg(angle_deg) + turn * kTurn;
+        if (position >= axis.limits_deg[0] - kRounding &&
+            position <= axis.limits_deg[1] + kRounding &&
+            (!best || std::abs(position - from) < std::abs(*best - from)))
+            best = position;
+    }
+    return best;
+}
+
+} // namespace
+
+AxisAngles axis_angles_deg(const ReflectanceRow &row) {
+    AxisAngles angles{};
+    const auto set = [&](AxisName name, double degrees) {
+        angles[static_cast<std::size_t>(name)] = degrees;
+    };
+    set(AxisName::lamp_theta, row.theta_i / kDegree);
+    set(AxisName::lamp_phi, azimuth_deg(row.phi_i - row.phi_r));
+    set(AxisName::camera, row.theta_r / kDegree);
+    set(AxisName::stage, azimuth_deg(-row.phi_r));
+    return angles;
+}
+
+double separation_deg(const ReflectanceRow &row) {
+    const double cosine = glm::dot(row.to_light(), row.to_viewer());
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) / kDegree;
+}
+
+AxisAngles positions_deg(const RigFile &rig, const ReflectanceRow &row, const AxisAngles &from) {
+    Problems problems;
+    const double apart = separation_deg(row);
+    problems.need(apart >= rig.dead_cone_deg,
+                  "lamp and camera would be " + number_text(apart) + " degrees apart",
+                  "geometry.dead_cone_deg",
+                  "at least " + number_text(rig.dead_cone_deg) + " degrees");
+    AxisAngles positions = axis_angles_deg(row);
+    for (std::size_t i = 0; i < kAxes; ++i) {
+        const auto name = static_cast<AxisName>(i);
+        const RigAxis &axis = rig.axes[i];
+        const auto reachable = reachable_deg(axis, name, positions[i], from[i]);
+        problems.need(reachable.has_value(),
+                      "the drive does not reach " + number_text(axis.position_deg(positions[i])) +
+                          " degrees",
+                      std::string("axes.") + name_of(name),
+                      number_text(axis.limits_deg[0]) + " to " + number_text(axis.limits_deg[1]));
+        positions[i] = reachable.value_or(positions[i]);
+    }
+    problems.throw_if_any();
+    return positions;
+}
+
+} // namespace tsuya::lab

@@ -1,0 +1,51 @@
+// A call of the program from its words to its exit status.
+
+#include <iostream>
+
+#include "command.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::program {
+namespace {
+
+int run(Command &command, Console &console) {
+    watch_signals();
+    try {
+        const Status status = command.run(console);
+        console.end_line();
+        std::cout.flush();
+        if (!std::cout) {
+            console.error("the results could not be written to the standard output");
+            return kWrongInput;
+        }
+        return status;
+    } catch (const Error &error) {
+        console.errors(error);
+        return kWrongInput;
+    } catch (const Interrupted &interrupted) {
+        console.error(interrupted.what());
+        return kInterrupted;
+    } catch (const std::exception &error) {
+        console.error(std::string("internal error: ") + error.what());
+        return kWrongInput;
+    }
+}
+
+} // namespace
+
+int run_program(std::span<const CommandEntry> table, int argc, const char *const *argv) {
+    Console console;
+    try {
+        const Call call = parse_call(table, argc, argv);
+        console.set_mode(parse_progress_mode(call.progress));
+        if (call.command)
+            return run(*call.command, console);
+        std::cout << call.text << std::flush;
+        return std::cout ? kDone : kWrongInput;
+    } catch (const WrongCall &wrong) {
+        console.errors(wrong);
+        return kWrongCall;
+    }
+}
+
+} // namespace tsuya::program
