@@ -21,7 +21,7 @@ void compare(int samples) {
     job.width = 80;
     job.height = 100;
     Scene dress = scene::make_try_on_scene(job).scene;
-    dress.fabrics[0].dye = dye("crimson");
+    dress.fabrics[0].colours.dye = dye("crimson");
     const RenderResult result =
         scene::render_try_on(dress, {.stop = {.samples_per_pixel = samples}});
 

@@ -47,16 +47,12 @@ struct FabricEvaluate final : Command {
             scene::check_output_file(values_file, {".csv"});
         const Fabric fabric = read_fabric(fabric_file);
         const ReflectanceTable table = read_reflectance_table(table_file);
-        if (std::any_of(fabric.dye.value.begin(), fabric.dye.value.end(),
-                        [](double v) { return v > 0; }))
+        if (fabric.colours.dye.any_above_zero())
             console.warning(fabric_file.string() + ": the fabric has a dye, which is not compared");
-        std::vector<std::string> models{model_name.empty() ? fabric.model : model_name};
-        if (model_name == "all") {
-            models.clear();
-            for (const ModelName &model : model_names())
-                if (has_data_of(std::string(model.name), fabric))
-                    models.emplace_back(model.name);
-        }
+        std::vector<std::string> models{model_name.empty() ? std::string(model_of(fabric))
+                                                           : model_name};
+        if (model_name == "all")
+            models = models_of(fabric);
         if (!values_file.empty())
             scene::prepare_output_file(values_file, {".csv"});
         std::vector<Result> results;

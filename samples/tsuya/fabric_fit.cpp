@@ -50,20 +50,23 @@ struct FabricFit final : Command {
             console.warning(table_file.string() +
                             ": the symmetry is not declared, orthotropic is assumed; "
                             "declare it by a line such as `# symmetry: half-turn`");
-        Fabric fabric{.name = name.empty() ? table_file.stem().string() : name, .keys = table.keys};
-        fabric.bard = Bard::fit(table, table_file.string());
-        if (f0)
-            fabric.f0 = f0;
-        Report report{.bard = *fabric.bard};
+        const CarriedViews views{.bard = Bard::fit(table, table_file.string()), .f0 = f0};
+        const Bard &bard = views.bard;
+        Fabric fabric{.name = name.empty() ? table_file.stem().string() : name,
+                      .keys = table.keys,
+                      .specular = views};
+        Report report{.bard = bard};
         if (use == "all") {
-            report.before = oblique(table, make_brdf("yarn", fabric, "fabric"));
-            fabric.yarn = fit_yarn_lobes(*fabric.bard, table, fabric.f0.value_or(YarnLobes{}.f0),
-                                         table_file.string());
-            report.yarn = fabric.yarn;
+            if (const auto brdf = make_brdf(fabric, "fabric"))
+                report.before = oblique(table, *brdf);
+            report.yarn =
+                fit_yarn_lobes(bard, table, f0.value_or(YarnLobes{}.f0), table_file.string());
+            fabric.specular = *report.yarn;
+            fabric.spare = {views};
         }
         if (const Material material = resolve(fabric, "fabric"); material.specular)
             report.after = oblique(table, *material.specular);
-        report.f0 = fabric.bard->peak() > 0 ? f0_of(fabric, "fabric") : 1;
+        report.f0 = bard.peak() > 0 ? f0_of(views) : 1;
         scene::prepare_output_file(output, {".toml"});
         write_fabric(fabric, output);
         json ? print_json(report) : print_text(report);

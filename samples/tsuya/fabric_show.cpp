@@ -17,6 +17,7 @@
 #include "tsuya/scene/ring_plot.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/model.h"
 #include "weave_name.h"
 
 namespace tsuya::program {
@@ -89,7 +90,7 @@ struct FabricShow final : Command {
         refuse_unused();
         scene::RingPlot plot{.fabric = read_fabric(fabric), .models = models};
         if (plot.models.empty())
-            plot.models = {plot.fabric.model};
+            plot.models = {std::string(model_of(plot.fabric))};
         if (!table.empty())
             plot.against = read_reflectance_table(table);
         plot.theta_i = theta_i_deg.value_or(45) * kDegree;

@@ -14,7 +14,7 @@ inline Scene sample_scene(int level, int width, int height) {
     job.width = width;
     job.height = height;
     Scene made = scene::make_try_on_scene(job).scene;
-    made.fabrics[0].dye = dye("crimson");
+    made.fabrics[0].colours.dye = dye("crimson");
     return made;
 }
 

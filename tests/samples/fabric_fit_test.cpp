@@ -29,7 +29,7 @@ fs::path satin() { return scene::data_folder() / "fabrics/black_satin.fabric.tom
 // lights, its weft deeper than light from above tells.
 std::string dozen_table(const Scratch &scratch, double odd = 1) {
     Fabric fabric = read_fabric(satin());
-    YarnLobes lobes = fit_yarn_lobes(*fabric.bard, 0.05);
+    YarnLobes lobes = fit_yarn_lobes(*views_of(fabric), 0.05);
     lobes.pit = {0.1, 0.05};
     const YarnBrdf brdf(lobes);
     const auto direction = [](double theta, double phi) {

@@ -150,7 +150,7 @@ TEST(FabricPlot, FacetsFollowTheirEquation) {
     const Scratch scratch;
     auto data = data_of(scratch, {"--view", "map"});
     const Fabric fabric = read_fabric(satin());
-    const double f0 = *fabric.f0;
+    const double f0 = *find_specular<CarriedViews>(fabric)->f0;
     std::size_t shown = 0, striped = 0;
     for (const auto &row : data["facets"]) {
         const double tilt = std::hypot(row[0], row[1]);
@@ -163,7 +163,7 @@ TEST(FabricPlot, FacetsFollowTheirEquation) {
         const glm::dvec3 view = direction(2 * tilt, std::atan2(row[1], row[0]) / kDegree);
         const double g = std::min(1.0, 2 * view.z);
         const double fresnel = f0 + (1 - f0) * std::pow(1 - std::cos(tilt * kDegree), 5);
-        const double d = fabric.bard->at(view) * view.z / (g * fresnel);
+        const double d = views_of(fabric)->at(view) * view.z / (g * fresnel);
         ASSERT_NEAR(row[2], d, 2e-5 * d) << row[0] << " " << row[1];
         ++shown;
     }

@@ -74,7 +74,7 @@ TEST(SceneFile, BuildsAScene) {
     EXPECT_EQ(scene.environment->group, LightGroupIndex{1});
     EXPECT_EQ(scene.camera.width, 16);
     EXPECT_FALSE(scene.surfaces[0].warp.empty());
-    EXPECT_FALSE(scene.fabrics[0].dye.is_constant());
+    EXPECT_FALSE(scene.fabrics[0].colours.dye.is_constant());
     // The camera frames the cloth
     const glm::dvec3 pixel = project_point(scene.camera, {0, 0.3, 0});
     EXPECT_NEAR(pixel.x, 8, 1);

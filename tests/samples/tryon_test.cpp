@@ -208,5 +208,39 @@ TEST(TryOn, RefusesADyeNamedTwice) {
     EXPECT_FALSE(fs::exists(scratch / "new"));
 }
 
+// The grain of a garment counts in every fabric that has one, with views or without.
+TEST(TryOn, SeesTheGrainOfFabricsWithoutViews) {
+    const Scratch scratch;
+    std::string bias = cloth_obj();
+    const std::string straight = "vt 0 0\nvt 0.4 0\nvt 0.4 0.6\nvt 0 0.6\n";
+    bias.replace(bias.find(straight), straight.size(),
+                 "vt 0 0\nvt 0.28284 0.28284\nvt -0.14142 0.70711\nvt -0.42426 0.42426\n");
+    const std::string start = "schema = \"tsuya-fabric 1\"\nname = \"f\"\n";
+    std::string weft, warp;
+    for (int i = 0; i < kYarnSlopes; ++i) {
+        weft += i == 0 ? "0" : i == kYarnSlopes / 2 ? ", 0.2" : ", 0";
+        warp += i == 0 ? "0" : i == kYarnSlopes / 2 ? ", 1.2" : ", 0";
+    }
+    const auto picture = [&](const std::string &fabric, const std::string &garment) {
+        TryOn job = small_job({});
+        job.fabric = scratch.write("f.fabric.toml", start + fabric);
+        job.garment = scratch.write("cloth.obj", garment);
+        job.body.clear();
+        job.unit = "m";
+        const Scene scene = make_try_on_scene(job).scene;
+        return std::pair(render(scene, job.render).image.transport, scene.surfaces[0].warp.size());
+    };
+    for (const std::string &fabric :
+         {std::string("model = \"ggx\"\n[ggx]\nalpha_weft = 0.05\nalpha_warp = 0.6\nf0 = 0.3\n"),
+          "[yarn]\nf0 = 0.05\nroughness = 0.08\neven = 0.02\npit_weft = 0\npit_warp = 0\n"
+          "surface_weft = [" +
+              weft + "]\nsurface_warp = [" + warp + "]\n"}) {
+        EXPECT_NE(picture(fabric, cloth_obj()).first, picture(fabric, bias).first) << fabric;
+        EXPECT_GT(picture(fabric, bias).second, 0u);
+    }
+    const std::string even = "model = \"ggx\"\n[ggx]\nalpha_weft = 0.3\nalpha_warp = 0.3\n";
+    EXPECT_EQ(picture(even, bias).second, 0u) << "no directions are looked for";
+}
+
 } // namespace
 } // namespace tsuya::scene

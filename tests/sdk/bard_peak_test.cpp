@@ -85,7 +85,9 @@ TEST(Bard, KeepsAPeakOfOneDegree) {
 // roughness of 1.7 degrees or more, and have no such peak.
 TEST(Models, FlattenAPeakOfOneDegreeByLittle) {
     for (const double tilt_deg : {0.0, 30.0}) {
-        Fabric fabric{.name = "peak", .bard = fit(one_degree_table(tilt_deg)), .f0 = 0.05};
+        Fabric fabric{.name = "peak",
+                      .specular =
+                          CarriedViews{.bard = fit(one_degree_table(tilt_deg)), .f0 = 0.05}};
         for (const std::string model : {"takeda", "takeda_printed", "half_vector", "yarn"}) {
             const glm::dvec3 errors = errors_at_peak(tilt_deg, make_model(model, fabric, "peak"));
             std::cout << model << ", peak at " << tilt_deg << " degrees: " << 100 * errors[1]

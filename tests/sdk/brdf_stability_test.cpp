@@ -58,18 +58,21 @@ struct Stressed {
 
 // A model a name of the list, and the odd ones.
 std::vector<Stressed> make_models() {
-    Fabric fabric{.name = "satin", .bard = bard_of(satin_cloth()), .f0 = 0.05};
-    fabric.table = paper_table(satin_cloth(), 10, 30);
+    const Bard bard_of_satin = bard_of(satin_cloth());
+    const Fabric fabric{.name = "satin",
+                        .specular = CarriedViews{.bard = bard_of_satin, .f0 = 0.05},
+                        .spare = {TabulatedSpecular{.table = paper_table(satin_cloth(), 10, 30)}}};
     std::vector<Stressed> all;
-    for (const ModelName &model : model_names())
-        all.push_back({std::string(model.name),
-                       make_brdf(std::string(model.name), fabric, std::string(model.name))});
+    for (const ModelName &model : model_names()) {
+        const std::string name(model.name);
+        all.push_back({name, *make_brdf(with_model(fabric, name, name), name)});
+    }
     const auto add = [&](const char *name, const Bard &bard, double f0) {
         all.push_back({std::string("takeda, ") + name, TakedaBrdf(bard, f0)});
         all.push_back({std::string("half_vector, ") + name, HalfVectorBrdf(bard, f0)});
         all.push_back({std::string("yarn, ") + name, YarnBrdf(bard, f0)});
     };
-    add("f0 of 0.0001", *fabric.bard, 1e-4);
+    add("f0 of 0.0001", bard_of_satin, 1e-4);
     add("f0 of 1", bard_of(narrow_cloth()), 1);
     add("one spike", Bard::fit(spike_table(), BardSmoothness{0.2, 0.2, 1e-6}, "spike"), 0.05);
     add("zeros", Bard::fit(black_table(), BardSmoothness{}, "zeros"), 0.05);

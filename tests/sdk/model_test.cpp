@@ -1,6 +1,10 @@
 #include "tsuya/sdk/model.h"
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <iostream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -11,16 +15,71 @@
 namespace tsuya::test {
 namespace {
 
-Fabric satin() { return {.name = "satin", .bard = bard_of(satin_cloth()), .f0 = 0.05}; }
+Fabric satin() {
+    return {.name = "satin", .specular = CarriedViews{.bard = bard_of(satin_cloth()), .f0 = 0.05}};
+}
 
 TEST(Models, AreNamedAndMade) {
     Fabric fabric = satin();
-    fabric.table = paper_table(satin_cloth(), 15, 30);
+    fabric.spare = {TabulatedSpecular{.table = paper_table(satin_cloth(), 15, 30)}};
     for (const ModelName &model : model_names()) {
         EXPECT_FALSE(model.description.empty());
         const BrdfFunction f = make_model(std::string(model.name), fabric, "satin");
         EXPECT_GT(f(direction(30, 90), direction(40, -90)), 0.0) << model.name;
     }
+}
+
+// What is asked to stop before stops at once; what is asked while it works, soon after.
+TEST(Models, StopOnRequest) {
+    Fabric fabric = satin();
+    fabric.spare = {TabulatedSpecular{.table = paper_table(satin_cloth(), 15, 30)}};
+    std::atomic<bool> stop{true};
+    const Progress progress{.stop = &stop};
+    for (const ModelName &model : model_names()) {
+        const Fabric made = with_model(fabric, std::string(model.name), "satin");
+        stop = true;
+        EXPECT_THROW(make_brdf(made, "satin", progress), Interrupted) << model.name;
+        EXPECT_THROW(resolve(made, "satin", progress), Interrupted) << model.name;
+        stop = false;
+        std::chrono::steady_clock::time_point asked{};
+        std::thread asking([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            asked = std::chrono::steady_clock::now();
+            stop = true;
+        });
+        std::chrono::steady_clock::time_point stopped{};
+        try {
+            make_brdf(made, "satin", progress);
+        } catch (const Interrupted &) {
+            stopped = std::chrono::steady_clock::now();
+        }
+        asking.join();
+        if (stopped.time_since_epoch().count() > 0)
+            std::cout << model.name << " stopped after "
+                      << std::chrono::duration<double>(stopped - asked).count() << " s\n";
+    }
+    stop = true;
+    const ReflectanceTable views = normal_table(satin_cloth(), even_grid(5, 10));
+    EXPECT_THROW(Bard::fit(views, "views", progress), Interrupted);
+    EXPECT_THROW(fit_yarn_lobes(*views_of(fabric), 0.05, progress), Interrupted);
+    EXPECT_THROW(fit_yarn_lobes(*views_of(fabric), paper_table(satin_cloth(), 15, 30), 0.05,
+                                "table", progress),
+                 Interrupted);
+}
+
+// What is not chosen is kept, and can be chosen again.
+TEST(Models, AreChosenFromWhatTheFabricHas) {
+    Fabric fabric = satin();
+    fabric.spare = {GgxFacets{.alpha_weft = 0.1}};
+    EXPECT_EQ(models_of(fabric), (std::vector<std::string>{"yarn", "takeda", "takeda_printed",
+                                                           "half_vector", "ggx", "lambert"}));
+    const Fabric facets = with_model(fabric, "ggx", "f");
+    EXPECT_EQ(facets.specular, Specular(GgxFacets{.alpha_weft = 0.1}));
+    EXPECT_EQ(model_of(facets), "ggx");
+    ASSERT_EQ(facets.spare.size(), 1u);
+    const Fabric back = with_model(facets, "takeda", "f");
+    EXPECT_EQ(model_of(back), "takeda");
+    EXPECT_EQ(with_model(back, "yarn", "f"), fabric);
 }
 
 // The views themselves come back from every model that is made of them.
@@ -52,13 +111,13 @@ TEST(Models, AreRefusedWithAPlace) {
     EXPECT_NE(refused("ggx", {}).find("f.toml.views"), std::string::npos);
     EXPECT_NE(refused("tabulated", satin()).find("f.toml.table"), std::string::npos);
     Fabric rough = satin();
-    rough.ggx = {.alpha_weft = 2};
+    rough.spare = {GgxFacets{.alpha_weft = 2}};
     EXPECT_NE(refused("ggx", rough).find("f.toml.ggx.alpha_weft"), std::string::npos);
     Fabric thin = satin();
-    thin.table = normal_table(satin_cloth(), even_grid(10, 30));
+    thin.spare = {TabulatedSpecular{.table = normal_table(satin_cloth(), even_grid(10, 30))}};
     EXPECT_NE(refused("tabulated", thin).find("light from 1 "), std::string::npos);
     Fabric mirror = satin();
-    mirror.f0 = 2;
+    find_specular<CarriedViews>(mirror)->f0 = 2;
     EXPECT_NE(refused("half_vector", mirror).find("f.toml.f0"), std::string::npos);
 }
 
@@ -150,7 +209,8 @@ TEST(Tabulated, MeetsItsRowsAndWhatLiesBetween) {
 // all, the model must be much nearer to it than the great circles are.
 TEST(HalfVector, FindsTheFacetsOfAMicrofacetCloth) {
     const Cloth cloth{.yarns = {{.alpha_weft = 0.3, .alpha_warp = 0.1}}};
-    const Fabric fabric{.name = "facets", .bard = bard_of(cloth), .f0 = cloth.f0};
+    const Fabric fabric{.name = "facets",
+                        .specular = CarriedViews{.bard = bard_of(cloth), .f0 = cloth.f0}};
     ReflectanceTable table{.symmetry = Symmetry::orthotropic};
     for (double theta = 0; theta <= 75; theta += 5)
         for (double phi = 0; phi < 360; phi += 10)

@@ -11,7 +11,7 @@ using namespace tsuya;
 using namespace tsuya::test;
 
 Fabric thin(Fabric fabric, double transmittance) {
-    fabric.transmittance = Spectrum::constant(transmittance);
+    fabric.colours.transmittance = Spectrum::constant(transmittance);
     return fabric;
 }
 
@@ -82,8 +82,8 @@ TEST(ThinCloth, EnvironmentIsSeenThroughIt) {
 
 Scene shot_sheet(double weft, double warp) {
     Fabric fabric = satin(0);
-    fabric.weft_tint = Spectrum::constant(weft);
-    fabric.warp_tint = Spectrum::constant(warp);
+    fabric.colours.weft_tint = Spectrum::constant(weft);
+    fabric.colours.warp_tint = Spectrum::constant(warp);
     return lit_sheet(fabric, false);
 }
 

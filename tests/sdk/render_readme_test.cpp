@@ -9,8 +9,9 @@
 
 // A surface in a satin that was fitted to a measured table, under one softbox.
 tsuya::RenderResult portrait(const tsuya::Surface &dress, const tsuya::ReflectanceTable &table) {
-    tsuya::Fabric satin{.name = "black satin", .bard = tsuya::Bard::fit(table, "table.csv")};
-    satin.dye = tsuya::Spectrum{{420, 560, 620}, {0.05, 0.06, 0.55}}; // reflectance, 0..1
+    tsuya::Fabric satin{.name = "black satin"};
+    satin.specular = tsuya::CarriedViews{.bard = tsuya::Bard::fit(table, "table.csv")};
+    satin.colours.dye = {{420, 560, 620}, {0.05, 0.06, 0.55}}; // reflectance, 0..1
 
     tsuya::Scene scene;
     scene.surfaces = {dress};

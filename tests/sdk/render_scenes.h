@@ -11,7 +11,7 @@
 namespace tsuya::test {
 
 inline Fabric lambert(double albedo) {
-    return {.name = "plain", .dye = Spectrum::constant(albedo)};
+    return {.name = "plain", .colours = {.dye = Spectrum::constant(albedo)}};
 }
 
 // A square in the plane y = 0, side metres wide, looking up; warp along -z.
@@ -65,8 +65,7 @@ inline Bard satin_bard() {
 inline Fabric satin(double dye) {
     Fabric fabric = lambert(dye);
     fabric.name = "satin";
-    fabric.bard = satin_bard();
-    fabric.f0 = 0.05;
+    fabric.specular = CarriedViews{.bard = satin_bard(), .f0 = 0.05};
     return fabric;
 }
 

@@ -161,8 +161,8 @@ TEST(Promises, CheckpointOfAnotherSceneIsRefused) {
     settings.resume = true;
     Scene brighter = folded_satin(70, 50), other_yarn = brighter, tinted = brighter;
     brighter.rectangles[0].radiance = 9;
-    other_yarn.fabrics[0].yarn = YarnLobes{};
-    tinted.fabrics[0].weft_tint = Spectrum::constant(0.5);
+    other_yarn.fabrics[0].specular = YarnLobes{};
+    tinted.fabrics[0].colours.weft_tint = Spectrum::constant(0.5);
     for (const Scene &other : {brighter, other_yarn, tinted})
         try {
             render(other, settings);
@@ -176,7 +176,7 @@ TEST(Promises, CheckpointOfAnotherSceneIsRefused) {
 TEST(Promises, SkippingChangesNothing) {
     Scene scene = folded_satin(40, 40);
     scene.fabrics.push_back(satin(0.2)); // dresses nothing
-    scene.fabrics[1].specular_tint = Spectrum::constant(0);
+    scene.fabrics[1].colours.specular_tint = Spectrum::constant(0);
     scene.rectangles.push_back({.corner = {0, 3, 0}, .radiance = 0});
     RenderSettings settings = quick(8);
     const SpectralImage lean = render(scene, settings).image;
@@ -252,6 +252,13 @@ TEST(Errors, SceneAndSettings) {
     scene = good;
     scene.surfaces[0].warp.clear();
     EXPECT_EQ(where(scene, quick(1)), "objects[0]");
+    // Also of a fabric without views; not of one that may be turned
+    scene.fabrics[0].specular = GgxFacets{.alpha_weft = 0.05, .alpha_warp = 0.6};
+    EXPECT_EQ(where(scene, quick(1)), "objects[0]");
+    scene.fabrics[0].specular = YarnLobes{};
+    EXPECT_EQ(where(scene, quick(1)), "objects[0]");
+    scene.fabrics[0].specular = GgxFacets{.alpha_weft = 0.2, .alpha_warp = 0.2};
+    EXPECT_EQ(where(scene, quick(1)), "accepted");
     scene = good;
     scene.surfaces[1].triangle[0].x = 77;
     EXPECT_EQ(where(scene, quick(1)), "surfaces[1]");
@@ -262,7 +269,7 @@ TEST(Errors, SceneAndSettings) {
     scene.camera.up = scene.camera.target - scene.camera.eye;
     EXPECT_EQ(where(scene, quick(1)), "camera");
     scene = good;
-    scene.fabrics[0].f0 = 1.5;
+    find_specular<CarriedViews>(scene.fabrics[0])->f0 = 1.5;
     EXPECT_EQ(where(scene, quick(1)), "fabrics.satin.f0");
     RenderSettings settings = quick(0);
     EXPECT_EQ(where(good, settings), "spp");

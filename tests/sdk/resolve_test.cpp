@@ -12,9 +12,8 @@ namespace {
 
 Fabric satin() {
     return {.name = "satin",
-            .bard = bard_of(satin_cloth()),
-            .f0 = 0.05,
-            .dye = {{400, 550, 700}, {0.1, 0.25, 0.9}}};
+            .specular = CarriedViews{.bard = bard_of(satin_cloth()), .f0 = 0.05},
+            .colours = {.dye = {{400, 550, 700}, {0.1, 0.25, 0.9}}}};
 }
 
 TEST(Resolve, RefusesWhatIsOutOfRange) {
@@ -27,33 +26,66 @@ TEST(Resolve, RefusesWhatIsOutOfRange) {
         }
     };
     Fabric bright = satin(), tinted = satin(), facets = satin(), thin = satin(), shot = satin();
-    bright.dye = Spectrum::constant(1.1);
-    tinted.specular_tint = Spectrum::constant(-0.1);
-    facets.f0 = 0;
+    bright.colours.dye = Spectrum::constant(1.1);
+    tinted.colours.specular_tint = Spectrum::constant(-0.1);
+    find_specular<CarriedViews>(facets)->f0 = 0;
     expect_refused(bright, "fabrics.satin.dye");
     expect_refused(tinted, "fabrics.satin.specular_tint");
     expect_refused(facets, "fabrics.satin.f0");
-    thin.transmittance = Spectrum::constant(0.2); // the dye reaches 0.9
+    thin.colours.transmittance = Spectrum::constant(0.2); // the dye reaches 0.9
     expect_refused(thin, "fabrics.satin.transmittance");
-    shot.warp_tint = Spectrum::constant(2);
+    shot.colours.warp_tint = Spectrum::constant(2);
     expect_refused(shot, "fabrics.satin.warp_tint");
-    shot.warp_tint.reset();
-    shot.weft_tint = {{450, 650}, {0.9, 0.2}};
+    shot.colours.warp_tint.reset();
+    shot.colours.weft_tint = {{450, 650}, {0.9, 0.2}};
     resolve(shot, "fabrics.satin");
-    shot.model = "takeda"; // does not tell weft and warp apart
+    find_specular<CarriedViews>(shot)->model =
+        ViewModel::takeda; // does not tell weft and warp apart
     expect_refused(shot, "fabrics.satin.weft_tint");
 }
 
 TEST(Resolve, TakesTheNormalReflectanceForF0) {
     Fabric fabric = satin();
-    fabric.model = "takeda";
-    fabric.f0.reset();
+    const Bard bard = *views_of(fabric);
+    fabric.specular = CarriedViews{.bard = bard, .model = ViewModel::takeda};
     const Material material = resolve(fabric, "satin");
     ASSERT_TRUE(material.has_specular());
-    const double rho = fabric.bard->at({0, 0, 1});
-    const TakedaBrdf expected(*fabric.bard, std::min(1.0, rho));
+    const double rho = bard.at({0, 0, 1});
+    const TakedaBrdf expected(bard, std::min(1.0, rho));
     const glm::vec3 light = direction(40, 10), view = direction(60, 170);
     EXPECT_EQ(material.specular->evaluate(light, view), expected.evaluate(light, view));
+}
+
+// What reflects alike however it is turned needs no yarn directions; all else does, whether or not
+// it has views.
+TEST(NeedsFrames, FollowsTheSpecularPart) {
+    const Bard bard = bard_of(satin_cloth());
+    const auto needs = [](const Specular &specular) {
+        return needs_frames({.name = "f", .specular = specular});
+    };
+    EXPECT_FALSE(needs({}));
+    EXPECT_FALSE(needs(GgxFacets{.alpha_weft = 0.2, .alpha_warp = 0.2}));
+    EXPECT_FALSE(needs(CarriedViews{.bard = bard, .model = ViewModel::lambert}));
+    EXPECT_TRUE(needs(GgxFacets{.alpha_weft = 0.05, .alpha_warp = 0.6}));
+    EXPECT_TRUE(needs(YarnLobes{}));
+    EXPECT_TRUE(needs(TabulatedSpecular{}));
+    for (const ViewModel model : {ViewModel::yarn, ViewModel::takeda, ViewModel::takeda_printed,
+                                  ViewModel::half_vector, ViewModel::ggx})
+        EXPECT_TRUE(needs(CarriedViews{.bard = bard, .model = model}));
+    Fabric colourless = satin();
+    colourless.colours.specular_tint = Spectrum::constant(0);
+    EXPECT_FALSE(needs_frames(colourless));
+}
+
+TEST(Resolve, RefusesTwoDescriptionsOfOneKind) {
+    Fabric fabric = satin();
+    fabric.spare = {GgxFacets{}, GgxFacets{.alpha_weft = 0.5}};
+    try {
+        check_fabric(fabric, "f");
+        FAIL() << "accepted";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems()[0].where, "f.spare");
+    }
 }
 
 } // namespace

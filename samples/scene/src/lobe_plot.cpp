@@ -124,10 +124,9 @@ void plot_lobes(const LobePlot &plot, const std::filesystem::path &file) {
     script += kCurveStyle;
     for (std::size_t i = 0; i < kPlanes.size(); ++i)
         script += panel_of(kPlanes[i], data[i], most);
-    if (plot.fabric.bard && plot.fabric.bard->peak() > 0) {
-        const DiskMap map = disk_map("map", 90, [&](double theta, double phi) {
-            return plot.fabric.bard->at(direction(theta, phi));
-        });
+    if (const Bard *const bard = views_of(plot.fabric); bard && bard->peak() > 0) {
+        const DiskMap map = disk_map(
+            "map", 90, [&](double theta, double phi) { return bard->at(direction(theta, phi)); });
         script = map.block + script + disk_style(map.most) + kMapLabels;
     }
     run_gnuplot(script + "unset multiplot\n", file, kWidth, kHeight);

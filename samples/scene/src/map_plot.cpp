@@ -20,8 +20,8 @@ constexpr double kLargestTilt = 45; // degrees, that light from above can show
 class FacetMap {
   public:
     explicit FacetMap(const Fabric &fabric)
-        : model_(make_model("half_vector", fabric, "fabric")), bard_(*fabric.bard),
-          f0_(f0_of(fabric, "fabric")) {}
+        : model_(make_model("half_vector", fabric, "fabric")), bard_(*views_of(fabric)),
+          f0_(f0_of(*find_specular<CarriedViews>(fabric))) {}
 
     double at(double tilt, double phi) const {
         const glm::dvec3 half = direction(tilt, phi);
@@ -88,15 +88,16 @@ unset multiplot
 void plot_maps(const Fabric &fabric, const std::filesystem::path &file) {
     prepare_output_file(file, {".svg", ".png"});
     const FacetMap facets(fabric); // first: it throws where there is no BARD
+    const CarriedViews &carried = *find_specular<CarriedViews>(fabric);
     const auto bard = [&](double theta, double phi) {
-        return fabric.bard->at(direction(theta, phi));
+        return carried.bard.at(direction(theta, phi));
     };
     const auto facet = [&](double tilt, double phi) { return facets.at(tilt, phi); };
     const DiskMap views = disk_map("bard", 90, bard);
-    const double shown = shown_tilt(*fabric.bard) / kDegree;
+    const double shown = shown_tilt(carried.bard) / kDegree;
     const DiskMap tilts = disk_map("facets", shown, facet);
-    const double f0 = f0_of(fabric, "fabric");
-    const std::vector<FeaturePoint> points = feature_points(*fabric.bard, f0);
+    const double f0 = f0_of(carried);
+    const std::vector<FeaturePoint> points = feature_points(carried.bard, f0);
     const std::string title = "Facets D(H) with f0 = " + rounded(f0) + "; striped, beyond " +
                               rounded(shown) + "° of tilt: extrapolated";
     run_gnuplot(views.block + tilts.block + kStyle + disk_style(views.most) +

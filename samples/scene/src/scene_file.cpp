@@ -16,22 +16,22 @@ void add_object(Scene &scene, const std::string &name, Surface surface, std::siz
 Fabric load_fabric(const FabricEntry &entry) {
     Fabric fabric;
     if (entry.file.empty())
-        fabric.dye = Spectrum::constant(kPlainReflectance);
+        fabric.colours.dye = Spectrum::constant(kPlainReflectance);
     else
         fabric = read_fabric(entry.file);
     fabric.name = entry.name;
     if (entry.dye)
-        fabric.dye = *entry.dye;
-    if (entry.f0)
-        fabric.f0 = entry.f0;
+        fabric.colours.dye = *entry.dye;
+    if (CarriedViews *const views = find_specular<CarriedViews>(fabric); views && entry.f0)
+        views->f0 = entry.f0;
     if (entry.transmittance)
-        fabric.transmittance = *entry.transmittance;
+        fabric.colours.transmittance = *entry.transmittance;
     if (entry.specular_tint)
-        fabric.specular_tint = *entry.specular_tint;
+        fabric.colours.specular_tint = *entry.specular_tint;
     if (entry.weft_tint)
-        fabric.weft_tint = entry.weft_tint;
+        fabric.colours.weft_tint = entry.weft_tint;
     if (entry.warp_tint)
-        fabric.warp_tint = entry.warp_tint;
+        fabric.colours.warp_tint = entry.warp_tint;
     return fabric;
 }
 
@@ -67,7 +67,8 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
         }
     if (file.backdrop) {
         add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape), scene.fabrics.size());
-        scene.fabrics.push_back({.name = "backdrop", .dye = file.backdrop->reflectance});
+        scene.fabrics.push_back(
+            {.name = "backdrop", .colours = {.dye = file.backdrop->reflectance}});
     }
     scene.light_groups = file.light_groups;
     scene.rectangles = file.lights;

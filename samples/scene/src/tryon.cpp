@@ -89,7 +89,7 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
                                .back = 1.6 * size,
                                .height = 4 * size,
                                .radius = 0.8 * size}),
-               {.name = "backdrop", .dye = Spectrum::constant(kBackdropReflectance)});
+               {.name = "backdrop", .colours = {.dye = Spectrum::constant(kBackdropReflectance)}});
 }
 
 /// The camera that frames all points, and the light about them.
@@ -164,7 +164,7 @@ std::vector<glm::dvec3> frame_points_of(const garment::PolygonMesh &mesh,
 Stage make_stage(const TryOn &job, const Progress &progress) {
     Stage stage{.meshes = SceneMeshes(progress)};
     Scene &scene = stage.shown.scene;
-    Fabric fabric = read_fabric(job.fabric);
+    Fabric fabric = read_fabric(job.fabric, progress);
     garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
                              .subdivide = {.level = job.level, .tolerance = job.tolerance},
                              .frames = {.invented_grain = job.invented_grain,
@@ -172,7 +172,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     garment::Options body_options = options;
     body_options.want_frames = false;
     options.strict = job.strict;
-    options.want_frames = fabric.bard.has_value();
+    options.want_frames = needs_frames(fabric);
 
     garment::GarmentFrames frames =
         garment::read_frames(job.garment, job.frames, job.morph_targets, progress);
@@ -191,7 +191,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
                                      .where = job.body.string(),
                                      .options = body_options,
                                      .tolerance_px = job.tolerance_px}),
-                   {.name = "body", .dye = Spectrum::constant(kBodyReflectance)});
+                   {.name = "body", .colours = {.dye = Spectrum::constant(kBodyReflectance)}});
     add_studio(job, stage.meshes.points(), scene);
     stage.meshes.refine(scene);
     stage.shown.report = stage.meshes.report(0);
@@ -243,7 +243,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
         if (frame > 0 && i % dyes.size() == 0)
             scene.surfaces[0] = show->frame(stage.further[frame - 1]);
         if (dye.spectrum)
-            scene.fabrics[0].dye = *dye.spectrum;
+            scene.fabrics[0].colours.dye = *dye.spectrum;
         const RenderResult rendered = render_try_on(scene, job.render, part);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;

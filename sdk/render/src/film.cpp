@@ -12,26 +12,6 @@ namespace {
 
 constexpr int kTileSize = 32;
 
-// FNV-1a over the bytes of values
-struct Hasher {
-    std::uint64_t state = 1469598103934665603ull;
-
-    void bytes(const void *data, std::size_t size) {
-        const auto *byte = static_cast<const unsigned char *>(data);
-        for (std::size_t i = 0; i < size; ++i)
-            state = (state ^ byte[i]) * 1099511628211ull;
-    }
-    template <class T> void value(const T &v) { bytes(&v, sizeof v); }
-    template <class T> void array(const std::vector<T> &v) {
-        value(v.size());
-        bytes(v.data(), v.size() * sizeof(T));
-    }
-    void spectrum(const Spectrum &s) {
-        array(s.wavelength_nm);
-        array(s.value);
-    }
-};
-
 } // namespace
 
 std::vector<std::string> channels_of(const std::string &aov) {
@@ -130,70 +110,6 @@ SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) 
             }
     }
     return image;
-}
-
-std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings) {
-    Hasher h;
-    h.value(settings.channels);
-    h.value(settings.max_bounces);
-    h.value(settings.seed);
-    h.value(settings.skip);
-    h.value(settings.crop.value_or(std::array<int, 4>{}));
-    for (const std::string &aov : settings.aovs)
-        h.bytes(aov.data(), aov.size());
-    for (const Surface &s : scene.surfaces) {
-        h.array(s.position);
-        h.array(s.normal);
-        h.array(s.warp);
-        h.array(s.triangle);
-    }
-    for (const Fabric &f : scene.fabrics) {
-        h.spectrum(f.dye);
-        h.spectrum(f.transmittance);
-        h.spectrum(f.specular_tint);
-        for (const auto *const tint : {&f.weft_tint, &f.warp_tint}) {
-            h.value(tint->has_value());
-            h.spectrum(tint->value_or(f.specular_tint));
-        }
-        h.value(f.f0.value_or(0));
-        h.bytes(f.model.data(), f.model.size());
-        if (f.yarn)
-            h.value(*f.yarn);
-        if (f.ggx)
-            for (const double v : {f.ggx->alpha_weft, f.ggx->alpha_warp, f.ggx->f0,
-                                   f.ggx->refractive_index.value_or(0)})
-                h.value(v);
-        if (f.table)
-            for (const ReflectanceRow &row : f.table->rows)
-                h.value(row);
-        if (f.bard)
-            for (const BardView &v : f.bard->views())
-                h.value(v);
-    }
-    for (const Object &o : scene.objects) {
-        h.value(o.surface);
-        h.value(o.fabric);
-    }
-    h.value(scene.light_groups.size());
-    for (const RectangleLight &l : scene.rectangles) {
-        for (const glm::dvec3 &v : {l.corner, l.edge_u, l.edge_v})
-            h.value(v);
-        h.value(l.radiance);
-        h.value(l.group);
-    }
-    if (scene.environment) {
-        h.value(scene.environment->radiance);
-        h.value(scene.environment->group);
-        h.value(scene.environment->visible);
-        if (scene.environment->picture)
-            h.array(scene.environment->picture->data);
-    }
-    for (const glm::dvec3 &v : {scene.camera.eye, scene.camera.target, scene.camera.up})
-        h.value(v);
-    h.value(scene.camera.vertical_angle);
-    h.value(scene.camera.width);
-    h.value(scene.camera.height);
-    return h.state;
 }
 
 } // namespace tsuya

@@ -1,6 +1,5 @@
 #include "tsuya/sdk/plan.h"
 
-#include "tsuya/sdk/model.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya {
@@ -19,11 +18,9 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
         const Fabric &fabric = scene.fabrics[i];
         if (skip(!used[i], "fabric '" + fabric.name + "' dresses nothing", "its tables"))
             continue;
-        const bool specular = has_data_of(fabric.model, fabric) &&
-                              (fabric.weft_tint.value_or(fabric.specular_tint).any_above_zero() ||
-                               fabric.warp_tint.value_or(fabric.specular_tint).any_above_zero());
-        const bool transmits = fabric.transmittance.any_above_zero();
-        const bool diffuse = fabric.dye.any_above_zero() || transmits;
+        const bool specular = has_specular(fabric);
+        const bool transmits = fabric.colours.transmittance.any_above_zero();
+        const bool diffuse = fabric.colours.dye.any_above_zero() || transmits;
         skip(!specular, "no specular part in fabric '" + fabric.name + "'",
              "its evaluation at every point");
         skip(!diffuse, "no dye in fabric '" + fabric.name + "'", "the diffuse part at every point");

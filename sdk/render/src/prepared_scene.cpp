@@ -78,7 +78,8 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
         if (progress.stopped())
             throw Interrupted("stopped while the fabrics were prepared");
         const Material material =
-            used[i] ? resolve(scene.fabrics[i], "fabrics." + scene.fabrics[i].name) : Material{};
+            used[i] ? resolve(scene.fabrics[i], "fabrics." + scene.fabrics[i].name, progress)
+                    : Material{};
         colours.push_back(colours_of(material, basis));
         shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
     }

@@ -52,7 +52,7 @@ struct SceneCheck {
             if (!surface || !fabric)
                 continue;
             const Fabric &cloth = scene.fabrics[object.fabric.value];
-            need(!cloth.bard || !scene.surfaces[object.surface.value].warp.empty(),
+            need(!needs_frames(cloth) || !scene.surfaces[object.surface.value].warp.empty(),
                  "fabric '" + cloth.name + "' needs yarn directions and the surface has none",
                  where, "expected a surface with UV, or a grain direction to invent one");
         }

@@ -1,14 +1,12 @@
 #include "models/facets.h"
 
-#include <string>
-
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
 
-float checked_f0(double f0) {
+float checked_f0(double f0, const std::string &where) {
     if (!(f0 > 0 && f0 <= 1))
-        throw Error({"f0 is " + std::to_string(f0), "f0",
+        throw Error({"f0 is " + std::to_string(f0), where,
                      "expected a reflectance above 0 and not above 1"});
     return static_cast<float>(f0);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <glm/glm.hpp>
 
@@ -19,9 +20,9 @@ inline float fresnel(float f0, float cosine) {
     return f0 + (1 - f0) * m2 * m2 * m;
 }
 
-// Throws Error if f0 is not in (0, 1]: at 0 the reflectance of all facets but the grazing ones
-// would be carried from nothing.
-float checked_f0(double f0);
+// Throws Error naming `where` if f0 is not in (0, 1]: at 0 the reflectance of all facets but the
+// grazing ones would be carried from nothing.
+float checked_f0(double f0, const std::string &where = "f0");
 
 // The part of the regular form that V0 alone decides: rho0(V0) max(cos theta0, 1/2) /
 // F(cos(theta0/2)).

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 #include <tbb/parallel_for.h>
 
+#include "tables/stop.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
@@ -122,8 +123,9 @@ Eigen::MatrixXd kernels(const Points &points, const BardSmoothness &s) {
 }
 
 // The weights of the nodes for the kernels, and the mean squared leave-one-out error of log rho if
-// that is asked for.
-Solution solve(const Points &points, Eigen::MatrixXd k, double noise_share, bool with_error) {
+// a progress is given, which may stop that.
+Solution solve(const Points &points, Eigen::MatrixXd k, double noise_share,
+               const Progress *with_error) {
     const Eigen::Index n = k.rows();
     const auto y = Eigen::Map<const Eigen::VectorXd>(points.value.data(), n);
     const double variance = std::max(y.squaredNorm() / static_cast<double>(n), 1e-12);
@@ -141,6 +143,7 @@ Solution solve(const Points &points, Eigen::MatrixXd k, double noise_share, bool
     constexpr Eigen::Index kColumns = 48;
     solution.error = 0;
     for (Eigen::Index begin = 0; begin < n; begin += kColumns) {
+        stop_if_asked(*with_error);
         const Eigen::Index rows = n - begin, columns = std::min(kColumns, rows);
         Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(rows, columns);
         k.bottomRightCorner(rows, rows).triangularView<Eigen::Lower>().solveInPlace(inverse);
@@ -161,15 +164,17 @@ struct Search {
     Solution best{};
 
     // Tries some at once; of equals the first is taken.
-    void attempt(const Points &points, const std::vector<BardSmoothness> &some) {
+    void attempt(const Points &points, const std::vector<BardSmoothness> &some,
+                 const Progress &progress) {
         const bool one_shape = std::all_of(some.begin(), some.end(), [&](const BardSmoothness &s) {
             return s.weft_support == some[0].weft_support && s.warp_support == some[0].warp_support;
         });
         const Eigen::MatrixXd shared = one_shape ? kernels(points, some[0]) : Eigen::MatrixXd();
         std::vector<Solution> solutions(some.size());
         tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+            stop_if_asked(progress);
             solutions[i] = solve(points, one_shape ? shared : kernels(points, some[i]),
-                                 some[i].noise_share, true);
+                                 some[i].noise_share, &progress);
         });
         for (std::size_t i = 0; i < some.size(); ++i)
             if (solutions[i].error < best.error) {
@@ -180,23 +185,25 @@ struct Search {
 };
 
 // One support for both axes, then each axis by itself, then the noise.
-Search search(const Points &points) {
+Search search(const Points &points, const Progress &progress) {
     constexpr double kLittle = 1e-6;
     Search found;
     std::vector<BardSmoothness> some;
     for (const double support : {0.25, 0.5, 1.0, 2.0, 4.0})
         some.push_back({support, support, kLittle});
-    found.attempt(points, some);
+    found.attempt(points, some, progress);
     const double weft = found.smoothness.weft_support, warp = found.smoothness.warp_support;
-    found.attempt(points, {{weft / 2, warp, kLittle},
-                           {weft, warp / 2, kLittle},
-                           {weft * 2, warp, kLittle},
-                           {weft, warp * 2, kLittle}});
+    found.attempt(points,
+                  {{weft / 2, warp, kLittle},
+                   {weft, warp / 2, kLittle},
+                   {weft * 2, warp, kLittle},
+                   {weft, warp * 2, kLittle}},
+                  progress);
     const BardSmoothness shaped = found.smoothness;
     some.clear();
     for (const double noise : {1e-5, 1e-4, 1e-3, 1e-2})
         some.push_back({shaped.weft_support, shaped.warp_support, noise});
-    found.attempt(points, some);
+    found.attempt(points, some, progress);
     return found;
 }
 
@@ -309,16 +316,17 @@ void Bard::finish() {
 }
 
 Bard Bard::fit(const ReflectanceTable &table, const BardSmoothness &smoothness,
-               const std::string &where) {
-    return fit_with(&smoothness, table, where);
+               const std::string &where, const Progress &progress) {
+    return fit_with(&smoothness, table, where, progress);
 }
 
-Bard Bard::fit(const ReflectanceTable &table, const std::string &where) {
-    return fit_with(nullptr, table, where);
+Bard Bard::fit(const ReflectanceTable &table, const std::string &where, const Progress &progress) {
+    return fit_with(nullptr, table, where, progress);
 }
 
 Bard Bard::fit_with(const BardSmoothness *smoothness, const ReflectanceTable &table,
-                    const std::string &where) {
+                    const std::string &where, const Progress &progress) {
+    stop_if_asked(progress);
     Bard bard;
     bard.take_views(table, where);
     Points points{.relative_sigma = bard.relative_sigma_, .symmetry = bard.symmetry_};
@@ -329,9 +337,9 @@ Bard Bard::fit_with(const BardSmoothness *smoothness, const ReflectanceTable &ta
     Search found;
     if (smoothness) {
         found.smoothness = *smoothness;
-        found.best = solve(points, kernels(points, *smoothness), smoothness->noise_share, false);
+        found.best = solve(points, kernels(points, *smoothness), smoothness->noise_share, nullptr);
     } else {
-        found = search(points);
+        found = search(points, progress);
     }
     bard.smoothness_ = found.smoothness;
     for (std::size_t i = 0; i < bard.nodes_.size(); ++i)

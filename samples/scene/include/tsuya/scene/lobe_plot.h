@@ -16,7 +16,7 @@ namespace tsuya::scene {
 /// What is drawn.
 struct LobePlot {
     Fabric fabric{};
-    std::string model = "takeda";              ///< see model_names
+    std::string model = kDefaultModel;         ///< see model_names
     std::optional<ReflectanceTable> against{}; ///< measured points over the curves
 };
 

@@ -16,9 +16,9 @@ namespace tsuya::scene {
 /// What is drawn.
 struct RingPlot {
     Fabric fabric{};
-    std::vector<std::string> models = {"takeda"}; ///< see model_names; one curve each
-    std::optional<ReflectanceTable> against{};    ///< measured points over the curves
-    double theta_i = kPi / 4;                     ///< radians, in [0, pi/2)
+    std::vector<std::string> models = {kDefaultModel}; ///< see model_names; one curve each
+    std::optional<ReflectanceTable> against{};         ///< measured points over the curves
+    double theta_i = kPi / 4;                          ///< radians, in [0, pi/2)
 };
 
 /// Draws, through the program gnuplot, the BRDF over phi_r at theta_r = 30 and 60 degrees, for

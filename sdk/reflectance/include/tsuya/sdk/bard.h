@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya {
@@ -18,6 +19,8 @@ struct BardView {
     double brdf_per_sr = 0;
     double sigma_per_sr = 0;
     double fitted_per_sr = 0; ///< the surface at that view
+
+    bool operator==(const BardView &) const = default;
 };
 
 /// Shape of the interpolation: support of its kernel along weft and warp, in units of the
@@ -26,6 +29,8 @@ struct BardSmoothness {
     double weft_support = 1.0;
     double warp_support = 1.0;
     double noise_share = 1e-6;
+
+    bool operator==(const BardSmoothness &) const = default;
 };
 
 /// rho0 of the upper hemisphere. log rho is interpolated by kernels that are mirrored with the
@@ -39,10 +44,12 @@ class Bard {
     /// the declared symmetry (mirror images above 1 % of the peak that differ by a factor of 1.6,
     /// root mean square weighted by value, beyond their standard errors); values that reflect more
     /// than twice what they receive, which are no BRDF; as check_table.
-    static Bard fit(const ReflectanceTable &table, const std::string &where);
+    /// Throws Interrupted where progress asks to stop.
+    static Bard fit(const ReflectanceTable &table, const std::string &where,
+                    const Progress &progress = {});
     /// The same with a smoothness found before: no search.
     static Bard fit(const ReflectanceTable &table, const BardSmoothness &smoothness,
-                    const std::string &where);
+                    const std::string &where, const Progress &progress = {});
 
     /// rho0 in 1/sr for a unit direction with z >= 0.
     double at(const glm::dvec3 &to_viewer) const;
@@ -57,14 +64,16 @@ class Bard {
     double asymmetry() const { return asymmetry_; }
     /// Root mean square of log10(fitted / measured).
     double residual() const;
+    bool operator==(const Bard &) const = default;
 
   private:
     struct Node {
         double x, y, weight;
+        bool operator==(const Node &) const = default;
     };
     Bard() = default;
     static Bard fit_with(const BardSmoothness *smoothness, const ReflectanceTable &table,
-                         const std::string &where);
+                         const std::string &where, const Progress &progress);
     void take_views(const ReflectanceTable &table, const std::string &where);
     void finish();
     void check_symmetry(const std::string &where) const;

@@ -1,47 +1,129 @@
 #pragma once
 /// \file
 /// A fabric as its author describes it, and the material that the renderer shades with.
+///
+///     Fabric fabric{.name = "satin",
+///                   .specular = CarriedViews{.bard = Bard::fit(table, "satin.csv")},
+///                   .colours = {.dye = Spectrum::constant(0.4)}};
+///     const Material material = resolve(fabric, "fabrics.satin");
 
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/brdf.h"
+#include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/spectrum.h"
 #include "tsuya/sdk/yarn_lobes.h"
 
 namespace tsuya {
 
-/// The model of a fabric that names none: the one that comes nearest to traced cloth, see
+/// The model of a fabric's file that names none: the one that comes nearest to traced cloth, see
 /// sdk/docs/ACCURACY.md.
 inline constexpr const char *kDefaultModel = "yarn";
+
+/// How views under light from straight above are carried to all other lights.
+enum class ViewModel {
+    yarn, ///< yarns fitted to the views
+    takeda,
+    takeda_printed,
+    half_vector,
+    ggx,    ///< facets fitted to the views
+    lambert ///< the ideal diffuser of the same albedo under light from straight above
+};
+
+/// A specular part that is carried from measured views.
+struct CarriedViews {
+    Bard bard;
+    ViewModel model = ViewModel::yarn;
+    /// Reflectance of the facets at normal incidence, in (0, 1]. None: of `yarn` a fibre's, 0.05;
+    /// of the others rho0(0,0), as [Takeda] has it. `ggx` and `lambert` do not look at it.
+    std::optional<double> f0{};
+
+    bool operator==(const CarriedViews &) const = default;
+};
+
+/// A specular part that is looked up in a table of every light and view.
+struct TabulatedSpecular {
+    ReflectanceTable table{};
+    std::string file{}; ///< that holds the table, from the folder of the fabric's file
+
+    bool operator==(const TabulatedSpecular &) const = default;
+};
+
+/// What the specular part is made of. `std::monostate`: the fabric has none.
+using Specular =
+    std::variant<std::monostate, CarriedViews, YarnLobes, GgxFacets, TabulatedSpecular>;
+
+/// The spectra of a fabric.
+struct FabricColours {
+    Spectrum dye = Spectrum::constant(0.0); ///< diffuse reflectance, 0..1
+    /// Diffuse transmittance of the thin cloth, 0..1, with the dye at most 1: light from behind
+    Spectrum transmittance = Spectrum::constant(0.0);
+    Spectrum specular_tint = Spectrum::constant(1); ///< colour of the specular part, 0..1
+    /// The same of one system of yarns, in its place: weft and warp of a shot silk are dyed apart.
+    /// For specular parts that tell the systems apart: yarns, given or fitted.
+    std::optional<Spectrum> weft_tint{}, warp_tint{};
+
+    /// Colour of what either system of yarns reflects.
+    const Spectrum &weft() const;
+    const Spectrum &warp() const;
+    bool operator==(const FabricColours &) const = default;
+};
 
 /// Authored. The measured black fabric gives the specular part, a dye the diffuse part
 /// ([Takeda] Eq. 18).
 struct Fabric {
     std::string name{};
     std::map<std::string, std::string> keys{}; ///< provenance
-    std::string model = kDefaultModel;         ///< of the specular part, see model_names
-    std::optional<Bard> bard{};                ///< the measured views, for the models made of them
-    std::optional<GgxFacets> ggx{};            ///< for the model `ggx`; none: fitted to the views
-    /// For the model `yarn`: fitted to oblique light too; none: fitted to the views. With its own
-    /// f0.
-    std::optional<YarnLobes> yarn{};
-    /// For the model `tabulated`: every light and view, and the file that holds them, from the
-    /// folder of the fabric's file.
-    std::optional<ReflectanceTable> table{};
-    std::string table_file{};
-    std::optional<double> f0{};             ///< in (0, 1]; none: rho0(0,0), as [Takeda] has it
-    Spectrum dye = Spectrum::constant(0.0); ///< diffuse reflectance, 0..1
-    /// Diffuse transmittance of the thin cloth, 0..1, with the dye at most 1: light from behind
-    Spectrum transmittance = Spectrum::constant(0.0);
-    Spectrum specular_tint = Spectrum::constant(1); ///< colour of the specular part, 0..1
-    /// The same of one system of yarns, in its place: weft and warp of a shot silk are dyed apart.
-    /// For models that tell the systems apart: `yarn`.
-    std::optional<Spectrum> weft_tint{}, warp_tint{};
+    Specular specular{};
+    /// What else is known of the same cloth, at most one of each kind: the views that yarns were
+    /// fitted to, facets to compare with. Not rendered; `with_model` makes it the specular part.
+    std::vector<Specular> spare{};
+    FabricColours colours{};
+
+    bool operator==(const Fabric &) const = default;
 };
+
+/// The description of one kind, as specular part or spare; null where the fabric has none.
+template <class Kind> const Kind *find_specular(const Fabric &fabric) {
+    if (const Kind *const found = std::get_if<Kind>(&fabric.specular))
+        return found;
+    for (const Specular &spare : fabric.spare)
+        if (const Kind *const found = std::get_if<Kind>(&spare))
+            return found;
+    return nullptr;
+}
+template <class Kind> Kind *find_specular(Fabric &fabric) {
+    return const_cast<Kind *>(find_specular<Kind>(std::as_const(fabric)));
+}
+
+/// The fabric's measured views; null where it has none.
+const Bard *views_of(const Fabric &fabric);
+
+/// There is a specular part, and not of views that are all 0.
+bool reflects(const Specular &specular);
+
+/// The fabric has a specular part that reflects, with a colour.
+bool has_specular(const Fabric &fabric);
+
+/// The fabric reflects otherwise when it is turned: its surface needs yarn directions. Not so a
+/// fabric without specular part, an ideal diffuser, and facets given as wide along the weft as
+/// along the warp. What is carried from views counts as directed, whatever they show.
+bool needs_frames(const Fabric &fabric);
+
+/// f0, or what the model takes where there is none.
+double f0_of(const CarriedViews &views);
+
+/// Throws Error naming `where`, with every rule that is broken: a spectrum outside 0..1; dye and
+/// transmittance above 1 together; f0 outside (0, 1]; facets as check_ggx; two descriptions of one
+/// kind; tints of weft and warp for a specular part that does not tell them apart.
+void check_fabric(const Fabric &fabric, const std::string &where);
 
 /// Resolved. Local space, see brdf.h; both sides of a cloth are alike.
 struct Material {
@@ -54,20 +136,19 @@ struct Material {
     bool has_specular() const; ///< with a colour
 };
 
-/// The fabric's f0, or what [Takeda] takes where it has none. Throws Error naming `where` if it is
-/// not in (0, 1].
-double f0_of(const Fabric &fabric, const std::string &where);
-
-/// A fabric without what its model is made of, or with views that are all 0, has no specular part.
-/// Throws Error naming `where`: a spectrum outside 0..1, dye and transmittance above 1 together, f0
-/// outside (0, 1], tints of weft and warp for a model that does not tell them apart; as make_brdf.
-Material resolve(const Fabric &fabric, const std::string &where);
+/// Checks the fabric and makes its material. Throws Error naming `where` as check_fabric and as
+/// make_brdf; Interrupted where progress asks to stop.
+Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress = {});
 
 /// Reads F.fabric.toml, and the table it names. Throws Error with file:line:column; unknown keys
-/// and models are refused with the nearest known.
-Fabric read_fabric(const std::filesystem::path &file);
+/// and models are refused with the nearest known. Throws Interrupted.
+///
+/// The key `model` says which of the descriptions in the file is the specular part, `yarn` where it
+/// is missing: `[yarn]` or `[ggx]` where the file has it, else what is carried from `[views]`. The
+/// others are spare, so that reading and writing loses nothing.
+Fabric read_fabric(const std::filesystem::path &file, const Progress &progress = {});
 
-/// Writes F.fabric.toml through a temporary file, with the views at normal incidence in it.
+/// Writes F.fabric.toml by atomic replacement, with the views at normal incidence in it.
 void write_fabric(const Fabric &fabric, const std::filesystem::path &file);
 
 } // namespace tsuya

@@ -31,6 +31,8 @@ struct YarnLobes {
     /// Depth at which the yarns lie between crossing ones, in widths of the opening.
     std::array<double, 2> pit{};
     double even = 0; ///< albedo of what is reflected evenly: light that was inside filaments
+
+    bool operator==(const YarnLobes &) const = default;
 };
 
 /// Density of the filaments' normals at a unit direction, for the lobe of one slope with a surface

@@ -31,6 +31,7 @@ struct ReflectanceRow {
 
     glm::dvec3 to_light() const { return direction_of(theta_i, phi_i); }
     glm::dvec3 to_viewer() const { return direction_of(theta_r, phi_r); }
+    bool operator==(const ReflectanceRow &) const = default;
 };
 
 /// Rows in any order, with the comment keys of the file (`instrument`, `date`, `provenance`...).
@@ -43,6 +44,7 @@ struct ReflectanceTable {
     bool has_sigma() const;
     /// The rows with light from straight above.
     ReflectanceTable normal_incidence() const;
+    bool operator==(const ReflectanceTable &) const = default;
 };
 
 /// Throws Error naming `where`, with up to 20 problems: a value or angle that is not a finite

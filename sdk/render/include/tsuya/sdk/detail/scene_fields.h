@@ -1,0 +1,109 @@
+#pragma once
+/// \file
+/// The fields of a scene and of the settings of a render, see fields.h. What is not `in_picture`
+/// may change between an interrupted render and its resumption.
+
+#include "tsuya/sdk/detail/fabric_fields.h"
+#include "tsuya/sdk/render.h"
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya {
+
+template <class F, class Tag> void each_field(F &&f, Index<Tag> &index) {
+    f(detail::Field{"value"}, index.value);
+}
+template <class F, class Tag> void each_field(F &&f, const Index<Tag> &index) {
+    f(detail::Field{"value"}, index.value);
+}
+
+template <class F, detail::MaybeConst<Surface> T> void each_field(F &&f, T &surface) {
+    auto &[position, normal, warp, weft, uv, triangle, panel, panel_name] = surface;
+    f(detail::Field{"position"}, position);
+    f(detail::Field{"normal"}, normal);
+    f(detail::Field{"warp"}, warp);
+    f(detail::Field{"weft"}, weft);
+    f(detail::Field{"uv"}, uv);
+    f(detail::Field{"triangle"}, triangle);
+    f(detail::Field{"panel"}, panel);
+    f(detail::Field{.key = "panel_name", .in_picture = false}, panel_name);
+}
+
+template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &object) {
+    auto &[name, surface, fabric] = object;
+    f(detail::Field{.key = "name", .in_picture = false}, name);
+    f(detail::Field{"surface"}, surface);
+    f(detail::Field{"fabric"}, fabric);
+}
+
+template <class F, detail::MaybeConst<RectangleLight> T> void each_field(F &&f, T &light) {
+    auto &[corner, edge_u, edge_v, radiance, group] = light;
+    f(detail::Field{"corner"}, corner);
+    f(detail::Field{"edge_u"}, edge_u);
+    f(detail::Field{"edge_v"}, edge_v);
+    f(detail::Field{.key = "radiance", .low = 0}, radiance);
+    f(detail::Field{"group"}, group);
+}
+
+template <class F, detail::MaybeConst<Image> T> void each_field(F &&f, T &image) {
+    auto &[width, height, channels, data] = image;
+    f(detail::Field{"width"}, width);
+    f(detail::Field{"height"}, height);
+    f(detail::Field{"channels"}, channels);
+    f(detail::Field{"data"}, data);
+}
+
+template <class F, detail::MaybeConst<Environment> T> void each_field(F &&f, T &environment) {
+    auto &[radiance, picture, group, visible] = environment;
+    f(detail::Field{.key = "radiance", .low = 0}, radiance);
+    f(detail::Field{"picture"}, picture);
+    f(detail::Field{"group"}, group);
+    f(detail::Field{"visible"}, visible);
+}
+
+template <class F, detail::MaybeConst<Camera> T> void each_field(F &&f, T &camera) {
+    auto &[eye, target, up, vertical_angle, width, height] = camera;
+    f(detail::Field{"eye"}, eye);
+    f(detail::Field{"target"}, target);
+    f(detail::Field{"up"}, up);
+    f(detail::Field{"vertical_angle"}, vertical_angle);
+    f(detail::Field{"width"}, width);
+    f(detail::Field{"height"}, height);
+}
+
+template <class F, detail::MaybeConst<Scene> T> void each_field(F &&f, T &scene) {
+    auto &[surfaces, fabrics, objects, light_groups, rectangles, environment, camera] = scene;
+    f(detail::Field{"surfaces"}, surfaces);
+    f(detail::Field{"fabrics"}, fabrics);
+    f(detail::Field{"objects"}, objects);
+    f(detail::Field{"light_groups"}, light_groups);
+    f(detail::Field{"rectangles"}, rectangles);
+    f(detail::Field{"environment"}, environment);
+    f(detail::Field{"camera"}, camera);
+}
+
+template <class F, detail::MaybeConst<StopRule> T> void each_field(F &&f, T &stop) {
+    auto &[samples_per_pixel, relative_error, seconds] = stop;
+    f(detail::Field{.key = "samples_per_pixel", .in_picture = false}, samples_per_pixel);
+    f(detail::Field{.key = "relative_error", .in_picture = false}, relative_error);
+    f(detail::Field{.key = "seconds", .in_picture = false}, seconds);
+}
+
+template <class F, detail::MaybeConst<RenderSettings> T> void each_field(F &&f, T &settings) {
+    // The last two are calls to the caller and hold no value
+    [[maybe_unused]] auto &[stop, channels, max_bounces, threads, seed, crop, aovs, skip,
+                            checkpoint, checkpoint_seconds, resume, snapshot_wanted, snapshot] =
+        settings;
+    f(detail::Field{.key = "stop", .in_picture = false}, stop);
+    f(detail::Field{"channels"}, channels);
+    f(detail::Field{"max_bounces"}, max_bounces);
+    f(detail::Field{.key = "threads", .in_picture = false}, threads);
+    f(detail::Field{"seed"}, seed);
+    f(detail::Field{"crop"}, crop);
+    f(detail::Field{"aovs"}, aovs);
+    f(detail::Field{"skip"}, skip);
+    f(detail::Field{.key = "checkpoint", .in_picture = false}, checkpoint);
+    f(detail::Field{.key = "checkpoint_seconds", .in_picture = false}, checkpoint_seconds);
+    f(detail::Field{.key = "resume", .in_picture = false}, resume);
+}
+
+} // namespace tsuya
