@@ -77,9 +77,12 @@ TEST(FabricFit, UsesObliqueViewsIfAsked) {
     EXPECT_NEAR(after.at("l2_cos_from_above").get<double>(), before.at("l2_cos").get<double>(),
                 1e-6);
     EXPECT_LT(after.at("l2_cos"), 0.5 * before.at("l2_cos").get<double>());
-    EXPECT_FALSE(read_fabric(normal).yarn);
-    ASSERT_TRUE(read_fabric(all).yarn);
-    EXPECT_NEAR(read_fabric(all).yarn->pit[0], after.at("pit_weft").get<double>(), 1e-9);
+    EXPECT_TRUE(std::holds_alternative<CarriedViews>(read_fabric(normal).specular));
+    const Fabric fitted = read_fabric(all);
+    ASSERT_TRUE(std::holds_alternative<YarnLobes>(fitted.specular));
+    EXPECT_NEAR(std::get<YarnLobes>(fitted.specular).pit[0], after.at("pit_weft").get<double>(),
+                1e-9);
+    EXPECT_TRUE(views_of(fitted)) << "the views are kept";
     const Outcome text = run(scratch, {"fit", table, "-o", all, "--use", "all"});
     EXPECT_NE(text.out.find("oblique views 12 under 6 lights, fitted: l2_cos"), std::string::npos);
 }

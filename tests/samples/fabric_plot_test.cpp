@@ -10,6 +10,8 @@
 #include "samples/process.h"
 #include "samples/scratch.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/lobe_plot.h"
+#include "tsuya/scene/ring_plot.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/model.h"
@@ -144,6 +146,11 @@ TEST(FabricPlot, OutlinesHoldTheLobe) {
     }
     EXPECT_NEAR(drawn_across, across / most, 0.01);
     EXPECT_NEAR(drawn_along, along / most, 0.01);
+}
+
+TEST(FabricPlot, TakesTheDefaultModelOfFabrics) {
+    EXPECT_EQ(scene::LobePlot{}.model, kDefaultModel);
+    EXPECT_EQ(scene::RingPlot{}.models, std::vector<std::string>{kDefaultModel});
 }
 
 TEST(FabricPlot, FacetsFollowTheirEquation) {

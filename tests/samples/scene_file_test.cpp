@@ -291,5 +291,30 @@ TEST(SceneFile, ReportsAllProblemsAtOnce) {
         3u);
 }
 
+// A body has no yarn directions: a fabric that reflects otherwise when it is turned is refused on
+// it, whether or not it has views.
+TEST(SceneFile, BodiesHaveNoFabricWithAGrain) {
+    const Scratch scratch;
+    scratch.write("cloth.obj", cloth_obj());
+    const auto where = [&](const std::string &facets) {
+        scratch.write("f.fabric.toml",
+                      "schema = \"tsuya-fabric 1\"\nname = \"f\"\nmodel = \"ggx\"\n[ggx]\n" +
+                          facets);
+        try {
+            check_scene(build_scene(read(scratch, small_scene("[fabrics.hard]\n"
+                                                              "file = \"f.fabric.toml\"\n"
+                                                              "[bodies.board]\n"
+                                                              "mesh = \"cloth.obj\"\n"
+                                                              "fabric = \"hard\"\n")))
+                            .scene);
+        } catch (const Error &error) {
+            return error.problems()[0].where;
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(where("alpha_weft = 0.05\nalpha_warp = 0.6\n"), "objects[1]");
+    EXPECT_EQ(where("alpha_weft = 0.2\nalpha_warp = 0.2\n"), "accepted");
+}
+
 } // namespace
 } // namespace tsuya::scene

@@ -37,27 +37,29 @@ inline glm::vec3 quadrature_point(int i) {
             fraction(n * 0.5497004779019703)};
 }
 
-// Albedos as mean weights of a core's own samples: of the light from a direction, and of a view.
-// Throw Interrupted.
-template <class Core>
-float mean_weight_of_views(const Core &core, const glm::vec3 &to_light, const Progress &progress,
-                           int samples = 1024) {
+// Mean weight of what `sample` gives at the quadrature points: an albedo. Throws Interrupted.
+template <class Sample>
+float mean_weight(const Sample &sample, const Progress &progress, int samples) {
     stop_if_asked(progress);
     double sum = 0;
     for (int i = 0; i < samples; ++i)
-        if (const auto s = detail::sample_view(core, to_light, quadrature_point(i)))
+        if (const auto s = sample(quadrature_point(i)))
             sum += s->weight;
     return static_cast<float>(sum / samples);
+}
+
+// The same of a core's own samples: its albedo of a light, and of a view.
+template <class Core>
+float mean_weight_of_views(const Core &core, const glm::vec3 &to_light, const Progress &progress,
+                           int samples = 1024) {
+    return mean_weight([&](const glm::vec3 &u) { return detail::sample_view(core, to_light, u); },
+                       progress, samples);
 }
 template <class Core>
 float mean_weight_of_lights(const Core &core, const glm::vec3 &to_viewer, const Progress &progress,
                             int samples = 1024) {
-    stop_if_asked(progress);
-    double sum = 0;
-    for (int i = 0; i < samples; ++i)
-        if (const auto s = detail::sample_light(core, to_viewer, quadrature_point(i)))
-            sum += s->weight;
-    return static_cast<float>(sum / samples);
+    return mean_weight([&](const glm::vec3 &u) { return detail::sample_light(core, to_viewer, u); },
+                       progress, samples);
 }
 
 // rho cos_i cos_r = value * min(1, k cos_i, k cos_r): microfacets with V-grooves in the form that

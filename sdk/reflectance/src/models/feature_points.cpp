@@ -39,9 +39,7 @@ std::vector<FeaturePoint> feature_points(const Bard &bard, double f0) {
                                         {.name = "Fxz", .theta = kHalfPi / 2, .phi = 0}};
     const double outermost = 2 * shown_tilt(bard);
     for (FeaturePoint &p : points) {
-        const glm::dvec3 view(std::sin(p.theta) * std::cos(p.phi),
-                              std::sin(p.theta) * std::sin(p.phi),
-                              std::max(0.0, std::cos(p.theta)));
+        const glm::dvec3 view = direction_of(p.theta, p.phi);
         p.brdf_per_sr = bard.at(view);
         p.facets_per_sr = facets_of_view(bard, f0, view);
         p.extrapolated = p.theta > outermost + 1e-9;
@@ -75,14 +73,9 @@ std::vector<BardView> misfits(const Bard &bard) {
 
 std::vector<ModelledView> oblique_views(const ReflectanceTable &table, const BrdfFunction &model) {
     std::vector<ModelledView> views;
-    const auto direction = [](double theta, double phi) {
-        return glm::dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                          std::max(std::cos(theta), 0.0));
-    };
     for (const ReflectanceRow &row : table.rows)
         if (row.theta_i >= kOblique)
-            views.push_back(
-                {row, model(direction(row.theta_i, row.phi_i), direction(row.theta_r, row.phi_r))});
+            views.push_back({row, model(row.to_light(), row.to_viewer())});
     return views;
 }
 

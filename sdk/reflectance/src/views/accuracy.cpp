@@ -29,10 +29,6 @@ constexpr std::array<NamedMeasure, 6> kMeasures = {{
     {"noise_floor", &ErrorMeasures::noise_floor},
 }};
 
-glm::dvec3 direction(double theta, double phi) {
-    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-}
-
 // theta_i and phi_i of a row as whole numbers; every phi_i is one where theta_i is 0.
 std::pair<long long, long long> light_key(const ReflectanceRow &row) {
     const auto whole = [](double angle) { return std::llround(angle * kAnglesPerRadian); };
@@ -60,10 +56,10 @@ double checked(double value, const ReflectanceRow &row) {
 
 std::vector<View> make_views(const std::vector<const ReflectanceRow *> &rows, Symmetry symmetry,
                              const BrdfFunction &model) {
-    const glm::dvec3 to_light = direction(rows[0]->theta_i, rows[0]->phi_i);
+    const glm::dvec3 to_light = rows[0]->to_light();
     std::vector<glm::dvec3> to_viewer;
     for (const ReflectanceRow *row : rows)
-        to_viewer.push_back(direction(row->theta_r, row->phi_r));
+        to_viewer.push_back(row->to_viewer());
     const std::vector<double> weight = solid_angles(to_viewer, to_light, symmetry);
     std::vector<View> views;
     for (std::size_t i = 0; i < rows.size(); ++i)

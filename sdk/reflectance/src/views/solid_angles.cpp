@@ -92,8 +92,7 @@ std::vector<double> solid_angles(std::span<const glm::dvec3> to_viewer, const gl
             (std::cos(ring * kStep) - std::cos((ring + 1) * kStep)) * 2 * kPi / points;
         for (int i = 0; i < points; ++i) {
             const double phi = (i + 0.5) * 2 * kPi / points;
-            const glm::dvec3 d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                               std::cos(theta));
+            const glm::dvec3 d = direction_of(theta, phi);
             find_nearest(nodes, d, theta, nearest);
             for (const std::size_t owner : nearest)
                 area[owner] += share / static_cast<double>(nearest.size());
