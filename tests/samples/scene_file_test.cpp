@@ -301,18 +301,17 @@ TEST(SceneFile, BodiesHaveNoFabricWithAGrain) {
                       "schema = \"tsuya-fabric 1\"\nname = \"f\"\nmodel = \"ggx\"\n[ggx]\n" +
                           facets);
         try {
-            check_scene(build_scene(read(scratch, small_scene("[fabrics.hard]\n"
-                                                              "file = \"f.fabric.toml\"\n"
-                                                              "[bodies.board]\n"
-                                                              "mesh = \"cloth.obj\"\n"
-                                                              "fabric = \"hard\"\n")))
-                            .scene);
+            build_scene(read(scratch, small_scene("[fabrics.hard]\n"
+                                                  "file = \"f.fabric.toml\"\n"
+                                                  "[bodies.board]\n"
+                                                  "mesh = \"cloth.obj\"\n"
+                                                  "fabric = \"hard\"\n")));
         } catch (const Error &error) {
             return error.problems()[0].where;
         }
         return std::string("accepted");
     };
-    EXPECT_EQ(where("alpha_weft = 0.05\nalpha_warp = 0.6\n"), "objects[1]");
+    EXPECT_NE(where("alpha_weft = 0.05\nalpha_warp = 0.6\n").find("objects[1]"), std::string::npos);
     EXPECT_EQ(where("alpha_weft = 0.2\nalpha_warp = 0.2\n"), "accepted");
 }
 

@@ -5,9 +5,9 @@
 
 #include "models/facets.h"
 #include "tables/disk.h"
-#include "tables/stop.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "views/stop.h"
 
 namespace tsuya {
 namespace {

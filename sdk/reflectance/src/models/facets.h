@@ -7,10 +7,10 @@
 
 #include <glm/glm.hpp>
 
-#include "tables/stop.h"
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/detail/brdf_core.h"
 #include "tsuya/sdk/detail/disk_table.h"
+#include "views/stop.h"
 
 namespace tsuya {
 

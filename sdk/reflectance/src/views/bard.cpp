@@ -9,9 +9,9 @@
 #include <Eigen/Dense>
 #include <tbb/parallel_for.h>
 
-#include "tables/stop.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "views/stop.h"
 
 namespace tsuya {
 namespace {
