@@ -30,25 +30,25 @@ struct YarnLobes {
     std::array<std::array<double, kYarnSlopes>, 2> surface{};
     /// Depth at which the yarns lie between crossing ones, in widths of the opening.
     std::array<double, 2> pit{};
-    double even = 0; ///< albedo of what is reflected evenly: light that was inside filaments
+    double even = 0; ///< albedo of the diffuse part: light that was inside filaments
 
     bool operator==(const YarnLobes &) const = default;
 };
 
 /// Density of the filaments' normals at a unit direction, for the lobe of one slope with a surface
-/// of 1: a cylinder's normals spread evenly about its axis, blurred by the roughness.
+/// of 1: a cylinder's normals spread uniformly about its axis, blurred by the roughness.
 double yarn_lobe(int axis, double slope, double roughness, const glm::dvec3 &half);
 /// The same at the sine of the direction's angle with the plane of the cylinder's normals.
 double yarn_lobe(double sine, double roughness);
 
-/// Fits slopes, roughness and the even part to the views with light from straight above. The depth
-/// of pits is not seen from above: it follows from how little of the face a system has. Throws
-/// Error unless f0 is in (0, 1].
+/// Fits slopes, roughness and the diffuse part to the views with light from straight above. The
+/// depth of pits is not seen from above: it follows from how little of the face a system has.
+/// Throws Error unless f0 is in (0, 1].
 YarnLobes fit_yarn_lobes(const Bard &bard, double f0, const Progress &progress = {});
 
 /// Fits the depth of pits as well, which light from straight above does not show, to the rows of
 /// the table with oblique light; its rows with theta_i = 0 are not looked at. A dozen rows are
-/// enough: the slopes are fitted to both, with one vote for the views from above and one for the
+/// enough: the slopes are fitted to both, with equal weight for the views from above and for the
 /// oblique lights together. Throws Error naming `where`: less than 4 oblique rows; a light whose
 /// views are all 0, or a bard of zeros; as check_table; f0 as above.
 YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double f0,
