@@ -91,8 +91,10 @@ struct FabricSimulate final : Command {
         add_keys(measured, weave);
         write_reflectance_table(measured.table, output);
         json ? print_json(measured) : print_text(measured);
-        if (!measured.interrupted)
+        if (!measured.interrupted) {
+            fs::remove(settings.checkpoint); // only now of no more use
             return kDone;
+        }
         console.error("interrupted; --resume goes on from " + settings.checkpoint.string());
         return kInterrupted;
     }

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "limited_disk.h"
 #include "samples/process.h"
 #include "samples/scratch.h"
 #include "tsuya/color/image_file.h"
@@ -178,6 +179,12 @@ TEST(FabricSimulate, ResumesBitIdentically) {
     ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
     call = simulation(parts, photons);
     call.insert(call.end(), {"--resume", "--json"});
+    {
+        // A table that cannot be written takes nothing away
+        const test::FileSizeLimit limit(500);
+        EXPECT_EQ(run(scratch, call).status, 1);
+    }
+    ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
     const Outcome resumed = run(scratch, call);
     ASSERT_EQ(resumed.status, 0) << resumed.err;
     EXPECT_LT(json::parse(resumed.out).at("photons"), 1500000); // or nothing was resumed

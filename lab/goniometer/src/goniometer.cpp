@@ -246,8 +246,6 @@ Measurement Goniometer::run() {
                                       [&](const LightSums &light) { return finished(light); });
     if (keeps && !complete)
         save();
-    if (keeps && complete)
-        std::filesystem::remove(settings_.checkpoint);
     result.interrupted = result.interrupted && !complete;
     report(result);
     return result;
