@@ -81,8 +81,8 @@ struct GoniometerSettings {
     double energy_bound = 0.5;
     double turn_per_segment = 0.02; ///< of a round filament's axis, radians; of others 5 times it
     int section_points = 24;        ///< of a section that is not round, 12 to 256
-    /// Where the sums are kept every 30 seconds and at a stop; empty: nowhere. The caller removes it
-    /// when the table is written: a table that cannot be written costs half a minute then.
+    /// Where the sums are kept every 30 seconds and at a stop; empty: nowhere. The caller removes
+    /// it when the table is written: a table that cannot be written costs half a minute then.
     std::filesystem::path checkpoint{};
     bool resume = false; ///< go on from `checkpoint` if it is there
 };
