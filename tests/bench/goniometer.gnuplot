@@ -53,7 +53,7 @@ set title 'Reflections followed, transmission 0.6 (used: all)'
 set xlabel 'reflections after the first'
 unset arrow 1
 eval panel("max_bounces")
-set title 'Energy below which photons go on by chance (used: 0.5)'
+set title 'Energy below which photons play Russian roulette (used: 0.5)'
 set xlabel 'energy bound, thousandths'
 eval used(500)
 eval panel("energy_bound")

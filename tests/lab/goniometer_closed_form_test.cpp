@@ -128,8 +128,8 @@ ViewTree::Choice even_choice(const std::vector<glm::vec3> &points, Random &rando
     return {static_cast<std::uint32_t>(random.unit() * count), 1 / count};
 }
 
-/// |z| of the mean of x / chance against the sum of x over all points. \param lie told of the
-/// chance, 1 for the truth
+/// |z| of the mean of x / probability against the sum of x over all points. \param lie told of the
+/// probability, 1 for the truth
 double tree_z(double lie) {
     std::vector<glm::vec3> points;
     for (const DirectionPair &p : ViewGrid(0, 0, 15).pairs)
@@ -147,8 +147,8 @@ double tree_z(double lie) {
     Random random(1, 1, 1);
     for (int i = 0; i < kCount; ++i) {
         const ViewTree::Choice c = tree.sample(centre, random), e = even_choice(points, random);
-        const double x = value(points[c.index]) / (lie * c.chance);
-        const double y = value(points[e.index]) / e.chance;
+        const double x = value(points[c.index]) / (lie * c.probability);
+        const double y = value(points[e.index]) / e.probability;
         sum += x;
         square += x * x;
         even_square += y * y;

@@ -85,7 +85,7 @@ FilamentScene::~FilamentScene() = default;
 namespace {
 
 // The normal of the tube about the smooth axis, not of the cone: it does not jump at the joints.
-Meeting on_cone(const Cones &cones, std::uint32_t segment, const glm::vec3 &point) {
+Hit on_cone(const Cones &cones, std::uint32_t segment, const glm::vec3 &point) {
     const std::uint32_t first = cones.first[segment];
     const glm::vec3 a(cones.vertex[first]), axis = glm::vec3(cones.vertex[first + 1]) - a;
     const float along = std::clamp(glm::dot(point - a, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
@@ -100,15 +100,16 @@ Meeting on_cone(const Cones &cones, std::uint32_t segment, const glm::vec3 &poin
             radial};
 }
 
-Meeting on_tube(const Tubes &tubes, const RTCHit &hit, const glm::vec3 &point) {
-    const std::uint32_t triangle = hit.primID;
-    const float u = hit.u, v = hit.v;
+Hit on_tube(const Tubes &tubes, const RTCHit &ray_hit, const glm::vec3 &point) {
+    const std::uint32_t triangle = ray_hit.primID;
+    const float u = ray_hit.u, v = ray_hit.v;
     const glm::uvec3 &t = tubes.triangle[triangle];
     const float w = 1 - u - v;
     const std::uint32_t segment = triangle / (2 * tubes.ring_size);
     const glm::vec3 normal =
         glm::normalize(w * tubes.normal[t.x] + u * tubes.normal[t.y] + v * tubes.normal[t.z]);
-    return {point, normal, tubes.system[segment], false, segment, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
+    return {point, normal,  tubes.system[segment],
+            false, segment, {ray_hit.Ng_x, ray_hit.Ng_y, ray_hit.Ng_z}};
 }
 
 } // namespace
@@ -141,7 +142,7 @@ FilamentScene::Leg FilamentScene::leg(glm::vec3 &origin, const glm::vec3 &direct
     return {std::min(x, y), end, x <= y ? 0 : 1};
 }
 
-Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Meeting &meeting) const {
+Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Hit &hit) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     for (int step = 0; step < kMostSteps; ++step) {
@@ -158,14 +159,14 @@ Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Meeting 
             continue;
         }
         const glm::vec3 point = origin + query.ray.tfar * direction;
-        meeting = query.hit.geomID == kCones ? on_cone(cell_.cones, query.hit.primID, point)
-                                             : on_tube(cell_.tubes, query.hit, point);
-        if (glm::dot(meeting.normal, direction) < 0)
-            return Fate::met;
+        hit = query.hit.geomID == kCones ? on_cone(cell_.cones, query.hit.primID, point)
+                                         : on_tube(cell_.tubes, query.hit, point);
+        if (glm::dot(hit.normal, direction) < 0)
+            return Fate::hit;
         const glm::vec3 face{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
         if (glm::dot(face, direction) < 0) { // smooth normals turn away at the silhouette
-            meeting.normal = glm::normalize(face);
-            return Fate::met;
+            hit.normal = glm::normalize(face);
+            return Fate::hit;
         }
         // From inside: filaments in contact may share a little space
         origin = point + kPastWall * direction;
@@ -189,8 +190,8 @@ bool FilamentScene::escapes(glm::vec3 origin, const glm::vec3 &direction) const 
     return false;
 }
 
-Fate FilamentScene::within_tube(Inside &place, const glm::vec3 &direction, float reach,
-                                Meeting &meeting, float &travelled) const {
+Fate FilamentScene::within_tube(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
+                                float &travelled) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     const std::uint32_t strand = cell_.tubes.strand[place.segment];
@@ -218,12 +219,12 @@ Fate FilamentScene::within_tube(Inside &place, const glm::vec3 &direction, float
         const glm::vec3 point = place.point + query.ray.tfar * direction;
         travelled += query.ray.tfar;
         if (query.hit.geomID == kTubes) {
-            meeting = on_tube(cell_.tubes, query.hit, point);
+            hit = on_tube(cell_.tubes, query.hit, point);
             // Copies of a filament side by side are different strands with the same wall
             const Strand &own = cell_.strands[strand];
-            const Strand &hit = cell_.strands[cell_.tubes.strand[meeting.segment]];
-            if (own.filament == hit.filament && glm::dot(meeting.face, direction) > 0)
-                return Fate::met;
+            const Strand &other = cell_.strands[cell_.tubes.strand[hit.segment]];
+            if (own.filament == other.filament && glm::dot(hit.face, direction) > 0)
+                return Fate::hit;
         }
         place.point = point + kPastWall * direction;
         travelled += kPastWall;

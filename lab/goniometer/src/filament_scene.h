@@ -10,8 +10,8 @@
 
 namespace tsuya::lab {
 
-// Where a ray met a filament.
-struct Meeting {
+// Where a ray hits a filament.
+struct Hit {
     glm::vec3 point, normal; // the normal is smooth and points outwards
     std::uint32_t system;
     bool on_cone;
@@ -26,7 +26,7 @@ struct Inside {
     bool on_cone;
 };
 
-enum class Fate { met, above, below, lost };
+enum class Fate { hit, above, below, lost };
 
 class FilamentScene {
   public:
@@ -38,7 +38,7 @@ class FilamentScene {
     // Follows a ray to the first filament or out of the cloth. The cell repeats in x and y: what
     // leaves on one side comes in on the other. Lost: a ray that stays within the cloth for
     // thousands of cells.
-    Fate trace(glm::vec3 origin, const glm::vec3 &direction, Meeting &meeting) const;
+    Fate trace(glm::vec3 origin, const glm::vec3 &direction, Hit &hit) const;
 
     // Whether a ray leaves the cloth, upwards. Filaments that share space hide each other here.
     bool escapes(glm::vec3 origin, const glm::vec3 &direction) const;
@@ -49,9 +49,9 @@ class FilamentScene {
     }
 
     // Follows a ray within a filament to its wall, or for `reach` where that is nearer. `travelled`
-    // is how far it came; at a wall, `meeting` is where, else `place` is. Met: at the wall. Lost:
+    // is how far it came; at a wall, `hit` is where, else `place` is. Hit: at the wall. Lost:
     // not at the wall. Above, below: the ray found a crack in the wall and left the cloth.
-    Fate within(Inside &place, const glm::vec3 &direction, float reach, Meeting &meeting,
+    Fate within(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
                 float &travelled) const;
 
     const FilamentCell &cell() const { return cell_; }
@@ -60,9 +60,9 @@ class FilamentScene {
     struct State;
     struct Leg;
     Leg leg(glm::vec3 &origin, const glm::vec3 &direction) const;
-    Fate within_cones(Inside &place, const glm::vec3 &direction, float reach, Meeting &meeting,
+    Fate within_cones(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
                       float &travelled) const;
-    Fate within_tube(Inside &place, const glm::vec3 &direction, float reach, Meeting &meeting,
+    Fate within_tube(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
                      float &travelled) const;
 
     FilamentCell cell_;

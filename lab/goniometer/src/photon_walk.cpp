@@ -35,7 +35,7 @@ std::uint32_t every_second_bit(std::uint32_t x) {
 struct Photon {
     glm::vec3 origin, direction;
     double energy = 1;
-    bool first = true;    // has met nothing
+    bool first = true;    // has hit nothing
     bool inside = false;  // a filament
     bool entered = false; // has been in one
     Inside place{};       // where, if so
@@ -58,35 +58,35 @@ class Walker {
         double value;
     };
 
-    Fate trace(const glm::vec3 &origin, const glm::vec3 &direction, Meeting &meeting) {
+    Fate trace(const glm::vec3 &origin, const glm::vec3 &direction, Hit &hit) {
         ++rays_;
-        return scene_.trace(origin, direction, meeting);
+        return scene_.trace(origin, direction, hit);
     }
-    static glm::vec3 outside(const Meeting &m) { return m.point + kOffset * m.normal; }
-    // Adds energy per solid angle that leaves a meeting towards a view, if the view is not hidden.
-    void see(const Meeting &m, std::uint32_t view, double per_sr);
-    // The same for a view that was drawn with a chance; of dim ones only some are worth a ray.
-    void see_some(const Meeting &m, std::uint32_t view, double energy, double value);
+    static glm::vec3 outside(const Hit &m) { return m.point + kOffset * m.normal; }
+    // Adds energy per solid angle that leaves a hit towards a view, if the view is not hidden.
+    void see(const Hit &m, std::uint32_t view, double per_sr);
+    // The same for a view that was drawn with a probability; of dim ones only some are worth a ray.
+    void see_some(const Hit &m, std::uint32_t view, double energy, double value);
     // One of the views, all alike.
     std::uint32_t any_view() {
         return static_cast<std::uint32_t>(random_.unit() *
                                           static_cast<float>(light_.to_viewer.size()));
     }
     // What the views see of a reflection; `from` in the surface's frame
-    void connect(const Meeting &m, const Frame &frame, const glm::vec3 &from, bool first,
+    void connect(const Hit &m, const Frame &frame, const glm::vec3 &from, bool first,
                  double energy);
     // What the views see of light that comes out
-    void connect_exit(const Meeting &m, const Frame &frame, const glm::vec3 &from, double energy);
-    // To the next meeting
-    Fate advance(Photon &photon, Meeting &meeting);
-    Fate within(Photon &photon, Meeting &meeting);
+    void connect_exit(const Hit &m, const Frame &frame, const glm::vec3 &from, double energy);
+    // To the next hit
+    Fate advance(Photon &photon, Hit &hit);
+    Fate within(Photon &photon, Hit &hit);
     // Whether light that has or has not been in a filament is of the part that is measured
     bool counts(bool entered) const {
         return rules_.part == LightPart::all || (rules_.part == LightPart::body) == entered;
     }
-    // The next leg of the path after a meeting; false where it ends
-    bool reflect(const Meeting &meeting, Photon &photon);
-    bool pass(Meeting &meeting, Photon &photon);
+    // The next leg of the path after a hit; false where it ends
+    bool reflect(const Hit &hit, Photon &photon);
+    bool pass(Hit &hit, Photon &photon);
     bool survives(double &energy);
     void store(Sums &sums);
 
@@ -99,7 +99,7 @@ class Walker {
     std::vector<Seen> seen_;
 };
 
-void Walker::see(const Meeting &m, std::uint32_t view, double per_sr) {
+void Walker::see(const Hit &m, std::uint32_t view, double per_sr) {
     const glm::vec3 &to = light_.to_viewer[view];
     if (!(per_sr > 0))
         return;
@@ -108,7 +108,7 @@ void Walker::see(const Meeting &m, std::uint32_t view, double per_sr) {
         seen_.push_back({view, per_sr / to.z});
 }
 
-void Walker::see_some(const Meeting &m, std::uint32_t view, double energy, double value) {
+void Walker::see_some(const Hit &m, std::uint32_t view, double energy, double value) {
     const double dim = kDim * static_cast<float>(light_.to_viewer.size());
     if (value < dim) {
         if (random_.unit() * dim >= value)
@@ -118,7 +118,7 @@ void Walker::see_some(const Meeting &m, std::uint32_t view, double energy, doubl
     see(m, view, energy * value);
 }
 
-void Walker::connect(const Meeting &m, const Frame &frame, const glm::vec3 &from, bool first,
+void Walker::connect(const Hit &m, const Frame &frame, const glm::vec3 &from, bool first,
                      double energy) {
     const RoughSurface &surface = matter_[m.system].surface;
     const std::optional<FilamentBody> &body = matter_[m.system].body;
@@ -142,11 +142,10 @@ void Walker::connect(const Meeting &m, const Frame &frame, const glm::vec3 &from
                                                   random_);
     const glm::vec3 to = frame.to_local(light_.to_viewer[choice.index]);
     see_some(m, choice.index, energy,
-             surface.single_per_sr(from, to) / (choice.chance * (1 - multiple)));
+             surface.single_per_sr(from, to) / (choice.probability * (1 - multiple)));
 }
 
-void Walker::connect_exit(const Meeting &m, const Frame &frame, const glm::vec3 &from,
-                          double energy) {
+void Walker::connect_exit(const Hit &m, const Frame &frame, const glm::vec3 &from, double energy) {
     const RoughDielectric &boundary = matter_[m.system].body->boundary;
     const auto even = static_cast<float>(std::min(0.5, boundary.even_share(from.z, Side::inside)));
     if (random_.unit() < even) {
@@ -164,7 +163,7 @@ void Walker::connect_exit(const Meeting &m, const Frame &frame, const glm::vec3 
         frame.to_world(boundary.refracted(from, Side::inside)), random_);
     const glm::vec3 to = frame.to_local(light_.to_viewer[choice.index]);
     see_some(m, choice.index, energy,
-             boundary.through_per_sr(from, to, Side::inside) / (choice.chance * (1 - even)));
+             boundary.through_per_sr(from, to, Side::inside) / (choice.probability * (1 - even)));
 }
 
 bool Walker::survives(double &energy) {
@@ -175,33 +174,32 @@ bool Walker::survives(double &energy) {
     return goes_on;
 }
 
-bool Walker::reflect(const Meeting &meeting, Photon &photon) {
-    const Frame frame = make_frame(meeting.normal);
+bool Walker::reflect(const Hit &hit, Photon &photon) {
+    const Frame frame = make_frame(hit.normal);
     glm::vec3 from = frame.to_local(-photon.direction);
     from.z = std::max(from.z, kLeastCosine);
     if (counts(photon.entered))
-        connect(meeting, frame, from, photon.first, photon.energy);
-    const RoughSurface::Reflection reflection =
-        matter_[meeting.system].surface.sample(from, random_);
+        connect(hit, frame, from, photon.first, photon.energy);
+    const RoughSurface::Reflection reflection = matter_[hit.system].surface.sample(from, random_);
     photon.direction = frame.to_world(reflection.direction);
-    photon.origin = outside(meeting);
+    photon.origin = outside(hit);
     photon.energy *= reflection.weight;
     return survives(photon.energy);
 }
 
 // Light that goes through the wall must do so by the wall's own normal: one that is interpolated
 // would let it leave on the side that it came from.
-bool Walker::pass(Meeting &meeting, Photon &photon) {
-    const RoughDielectric &boundary = matter_[meeting.system].body->boundary;
-    meeting.normal = glm::normalize(meeting.face);
+bool Walker::pass(Hit &hit, Photon &photon) {
+    const RoughDielectric &boundary = matter_[hit.system].body->boundary;
+    hit.normal = glm::normalize(hit.face);
     const Side side = photon.inside ? Side::inside : Side::outside;
-    const Frame frame = make_frame(photon.inside ? -meeting.normal : meeting.normal);
+    const Frame frame = make_frame(photon.inside ? -hit.normal : hit.normal);
     glm::vec3 from = frame.to_local(-photon.direction);
     from.z = std::max(from.z, kLeastCosine);
     if (photon.inside && counts(true))
-        connect_exit(meeting, frame, from, photon.energy);
+        connect_exit(hit, frame, from, photon.energy);
     else if (!photon.inside && counts(photon.entered))
-        connect(meeting, frame, from, photon.first, photon.energy);
+        connect(hit, frame, from, photon.first, photon.energy);
     const RoughDielectric::Passage passage = boundary.sample(from, side, random_);
     photon.direction = frame.to_world(passage.direction);
     photon.inside = photon.inside != passage.through;
@@ -209,19 +207,18 @@ bool Walker::pass(Meeting &meeting, Photon &photon) {
     if (photon.entered && rules_.part == LightPart::surface)
         return false;
     if (photon.inside)
-        photon.place = {meeting.on_cone ? meeting.point : meeting.point - kOffset * meeting.normal,
-                        meeting.segment, meeting.on_cone};
+        photon.place = {hit.on_cone ? hit.point : hit.point - kOffset * hit.normal, hit.segment,
+                        hit.on_cone};
     else
-        photon.origin = outside(meeting);
+        photon.origin = outside(hit);
     return survives(photon.energy);
 }
 
-Fate Walker::advance(Photon &photon, Meeting &meeting) {
-    return photon.inside ? within(photon, meeting)
-                         : trace(photon.origin, photon.direction, meeting);
+Fate Walker::advance(Photon &photon, Hit &hit) {
+    return photon.inside ? within(photon, hit) : trace(photon.origin, photon.direction, hit);
 }
 
-Fate Walker::within(Photon &photon, Meeting &meeting) {
+Fate Walker::within(Photon &photon, Hit &hit) {
     const FilamentCell &cell = scene_.cell();
     const Strand &strand = cell.strands[scene_.strand(photon.place.segment, photon.place.on_cone)];
     const FilamentBody &body = *matter_[strand.system].body;
@@ -231,7 +228,7 @@ Fate Walker::within(Photon &photon, Meeting &meeting) {
         float travelled;
         ++rays_;
         const Fate fate = scene_.within(photon.place, photon.direction, static_cast<float>(reach),
-                                        meeting, travelled);
+                                        hit, travelled);
         photon.energy *= std::exp(-depth * travelled);
         if (fate != Fate::lost || turns <= 0)
             return fate;
@@ -265,8 +262,8 @@ void Walker::photon(const glm::vec2 &place, Sums &sums) {
     seen_.clear();
     Photon photon{glm::vec3(place * cell.size, cell.top + kOffset), -light_.to_light};
     for (int bounce = 0;; ++bounce) {
-        Meeting meeting;
-        const Fate fate = advance(photon, meeting);
+        Hit hit;
+        const Fate fate = advance(photon, hit);
         const double energy = counts(photon.entered) ? photon.energy : 0;
         if (fate == Fate::above) {
             sums.reflected += energy;
@@ -275,9 +272,9 @@ void Walker::photon(const glm::vec2 &place, Sums &sums) {
             sums.transmitted += energy;
             sums.transmitted_square += energy * energy;
         }
-        if (fate != Fate::met || (rules_.max_bounces > 0 && bounce > rules_.max_bounces))
+        if (fate != Fate::hit || (rules_.max_bounces > 0 && bounce > rules_.max_bounces))
             break;
-        if (!(matter_[meeting.system].body ? pass(meeting, photon) : reflect(meeting, photon)))
+        if (!(matter_[hit.system].body ? pass(hit, photon) : reflect(hit, photon)))
             break;
         photon.first = false;
     }

@@ -37,7 +37,7 @@ struct Sums {
 };
 
 struct WalkRules {
-    int max_bounces = 0; // meetings after the first; 0: all
+    int max_bounces = 0; // hits after the first; 0: all
     double energy_bound = 0.5;
     LightPart part = LightPart::all;
 };

@@ -8,8 +8,8 @@ namespace tsuya::lab {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 8;
-constexpr float kLeastChance = 1e-3f; // of a branch
-constexpr float kWidening = 1.2f;     // of the Gaussian, so that its tails are not missed
+constexpr float kLeastProbability = 1e-3f; // of a branch
+constexpr float kWidening = 1.2f;          // of the Gaussian, so that its tails are not missed
 
 float distance2(const glm::vec3 &a, const glm::vec3 &b) {
     const glm::vec3 d = a - b;
@@ -68,16 +68,16 @@ void ViewTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end)
 
 ViewTree::Choice ViewTree::sample(const glm::vec3 &centre, Random &random) const {
     const Node *node = nodes_.data();
-    float chance = 1;
+    float probability = 1;
     const auto measure = [&](const Node &n) {
         return n.log_weight + n.inverse_width * distance2(n.mean, centre);
     };
     while (node->count == 0) {
         const Node *const left = &nodes_[node->first], *const right = left + 1;
         const float p = std::clamp(1 / (1 + std::exp(measure(*right) - measure(*left))),
-                                   kLeastChance, 1 - kLeastChance);
+                                   kLeastProbability, 1 - kLeastProbability);
         const bool go_left = random.unit() < p;
-        chance *= go_left ? p : 1 - p;
+        probability *= go_left ? p : 1 - p;
         node = go_left ? left : right;
     }
     const std::uint32_t count = node->count;
@@ -90,11 +90,11 @@ ViewTree::Choice ViewTree::sample(const glm::vec3 &centre, Random &random) const
         largest = std::max(largest, weight[i]);
     }
     for (std::uint32_t i = 0; i < count; ++i)
-        sum += weight[i] = std::exp(weight[i] - largest) + kLeastChance;
+        sum += weight[i] = std::exp(weight[i] - largest) + kLeastProbability;
     std::uint32_t chosen = 0;
     for (float left = random.unit() * sum; chosen + 1 < count && left >= weight[chosen]; ++chosen)
         left -= weight[chosen];
-    return {points_[node->first + chosen].index, chance * weight[chosen] / sum};
+    return {points_[node->first + chosen].index, probability * weight[chosen] / sum};
 }
 
 } // namespace tsuya::lab

@@ -11,7 +11,7 @@
 namespace tsuya::lab {
 
 // A tree over weighted points of the unit sphere. A node stands for its points by a Gaussian with
-// their mean and spread. Every point has a chance, so that estimates are unbiased.
+// their mean and spread. Every point has a probability above 0, so that estimates are unbiased.
 class ViewTree {
   public:
     ViewTree() = default;
@@ -20,7 +20,7 @@ class ViewTree {
 
     struct Choice {
         std::uint32_t index;
-        float chance;
+        float probability;
     };
     Choice sample(const glm::vec3 &centre, Random &random) const;
 

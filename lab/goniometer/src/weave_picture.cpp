@@ -87,9 +87,9 @@ class Painter {
             0.5f * pixel_ * glm::vec3(settings.width, static_cast<float>(settings.height) / c, 0);
         centre_.z = 0.5f * (scene_.cell().top + scene_.cell().bottom);
     }
-    // \param dice four numbers in [0, 1): the place on the lamp and that in the sky
-    glm::vec3 sample(const glm::vec2 &place, const glm::vec4 &dice) const;
-    glm::vec3 shade(const Meeting &meeting, const glm::vec4 &dice) const;
+    // \param u four numbers in [0, 1): the place on the lamp and that in the sky
+    glm::vec3 sample(const glm::vec2 &place, const glm::vec4 &u) const;
+    glm::vec3 shade(const Hit &hit, const glm::vec4 &u) const;
 
     const WeavePictureSettings &settings_;
     FilamentScene scene_;
@@ -98,39 +98,39 @@ class Painter {
     glm::vec3 to_viewer_{}, up_{}, to_lamp_{}, centre_{};
 };
 
-glm::vec3 Painter::shade(const Meeting &meeting, const glm::vec4 &dice) const {
-    const glm::vec3 origin = meeting.point + kOffset * meeting.normal;
+glm::vec3 Painter::shade(const Hit &hit, const glm::vec4 &u) const {
+    const glm::vec3 origin = hit.point + kOffset * hit.normal;
     // The lamp, through one point of its disk
-    const float radius = kLampSize * std::sqrt(dice.x);
-    const float angle = 2 * kPiF * dice.y;
+    const float radius = kLampSize * std::sqrt(u.x);
+    const float angle = 2 * kPiF * u.y;
     const glm::vec3 side = glm::normalize(glm::cross(to_lamp_, glm::vec3(0, 0, 1)));
     const glm::vec3 lamp =
         glm::normalize(to_lamp_ + radius * (std::cos(angle) * side +
                                             std::sin(angle) * glm::cross(side, to_lamp_)));
     float diffuse = 0, gloss = 0;
-    const float facing = glm::dot(lamp, meeting.normal);
+    const float facing = glm::dot(lamp, hit.normal);
     if (facing > 0 && scene_.escapes(origin, lamp)) {
-        const float half = glm::dot(glm::normalize(lamp + to_viewer_), meeting.normal);
+        const float half = glm::dot(glm::normalize(lamp + to_viewer_), hit.normal);
         diffuse = kLamp * facing;
         gloss = kGloss * std::pow(std::max(0.0f, half), kGlossPower);
     }
     // The sky, through a direction of the cosine law: a point of the unit sphere about the normal
-    const float z = 1 - 2 * dice.z, r = std::sqrt(std::max(0.0f, 1 - z * z));
-    const float turn = 2 * kPiF * dice.w;
+    const float z = 1 - 2 * u.z, r = std::sqrt(std::max(0.0f, 1 - z * z));
+    const float turn = 2 * kPiF * u.w;
     const glm::vec3 away =
-        meeting.normal + 0.999f * glm::vec3(r * std::cos(turn), r * std::sin(turn), z);
+        hit.normal + 0.999f * glm::vec3(r * std::cos(turn), r * std::sin(turn), z);
     if (scene_.escapes(origin, glm::normalize(away)))
         diffuse += kSky;
-    return color_[meeting.system] * diffuse + gloss;
+    return color_[hit.system] * diffuse + gloss;
 }
 
-glm::vec3 Painter::sample(const glm::vec2 &place, const glm::vec4 &dice) const {
+glm::vec3 Painter::sample(const glm::vec2 &place, const glm::vec4 &u) const {
     const glm::vec2 from_middle =
         pixel_ * (place - 0.5f * glm::vec2(settings_.width, settings_.height));
     glm::vec3 origin = centre_ + glm::vec3(from_middle.x, 0, 0) - from_middle.y * up_;
     origin += (scene_.cell().top + 1 - origin.z) / to_viewer_.z * to_viewer_;
-    Meeting meeting;
-    return scene_.trace(origin, -to_viewer_, meeting) == Fate::met ? shade(meeting, dice) : kGround;
+    Hit hit;
+    return scene_.trace(origin, -to_viewer_, hit) == Fate::hit ? shade(hit, u) : kGround;
 }
 
 glm::vec3 Painter::pixel(int x, int y) const {
@@ -138,13 +138,13 @@ glm::vec3 Painter::pixel(int x, int y) const {
     const int side = static_cast<int>(std::lround(std::sqrt(settings_.samples_per_pixel)));
     glm::vec3 sum{0};
     // Samples of a pixel are steps of an even sequence from a random start
-    glm::vec4 dice{random.unit(), random.unit(), random.unit(), random.unit()};
+    glm::vec4 u{random.unit(), random.unit(), random.unit(), random.unit()};
     for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i) {
             const glm::vec2 jitter{random.unit(), random.unit()};
             const glm::vec2 within = (glm::vec2(i, j) + jitter) / static_cast<float>(side);
-            sum += sample(glm::vec2(x, y) + within, dice);
-            dice = glm::fract(dice + kStep);
+            sum += sample(glm::vec2(x, y) + within, u);
+            u = glm::fract(u + kStep);
         }
     return glm::min(sum / static_cast<float>(side * side), glm::vec3(1));
 }

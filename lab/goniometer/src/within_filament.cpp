@@ -74,8 +74,8 @@ Neighbour neighbour(const Strand &strand, std::uint32_t segment, bool next, floa
 
 } // namespace
 
-Fate FilamentScene::within_cones(Inside &place, const glm::vec3 &direction, float reach,
-                                 Meeting &meeting, float &travelled) const {
+Fate FilamentScene::within_cones(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
+                                 float &travelled) const {
     const Cones &cones = cell_.cones;
     const Strand &strand = cell_.strands[cones.strand[place.segment]];
     travelled = 0;
@@ -103,21 +103,21 @@ Fate FilamentScene::within_cones(Inside &place, const glm::vec3 &direction, floa
         }
         if (goes_on)
             continue;
-        meeting.point = place.point;
-        meeting.face = rod.radial(place.point);
-        meeting.normal = glm::normalize(meeting.face);
-        meeting.system = strand.system;
-        meeting.on_cone = true;
-        meeting.segment = place.segment;
-        return Fate::met;
+        hit.point = place.point;
+        hit.face = rod.radial(place.point);
+        hit.normal = glm::normalize(hit.face);
+        hit.system = strand.system;
+        hit.on_cone = true;
+        hit.segment = place.segment;
+        return Fate::hit;
     }
     return Fate::lost;
 }
 
-Fate FilamentScene::within(Inside &place, const glm::vec3 &direction, float reach, Meeting &meeting,
+Fate FilamentScene::within(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
                            float &travelled) const {
-    return place.on_cone ? within_cones(place, direction, reach, meeting, travelled)
-                         : within_tube(place, direction, reach, meeting, travelled);
+    return place.on_cone ? within_cones(place, direction, reach, hit, travelled)
+                         : within_tube(place, direction, reach, hit, travelled);
 }
 
 } // namespace tsuya::lab

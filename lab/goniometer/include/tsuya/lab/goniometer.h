@@ -17,7 +17,7 @@
 /// Where light goes through filaments, all of them are made thinner by one factor until each two
 /// are apart by 1 % of the sum of their radii; an overlap of more than 20 % is an error.
 ///
-/// At every meeting one of the asked views is chosen, in proportion to what it would see, and
+/// At every hit one of the asked views is chosen, in proportion to what it would see, and
 /// connected by a ray: values are of the exact direction, without a solid angle about it.
 
 #include <cstdint>
@@ -76,8 +76,8 @@ struct GoniometerSettings {
     int threads = 0;        ///< 0: all. The result does not depend on it
     LightPart part = LightPart::all; ///< of what leaves the cloth; energies are of it too
     int max_bounces = 0;             ///< reflections after the first that are followed; 0: all
-    /// Photons with less energy than this, of 1 at the start, go on by chance with this energy:
-    /// nothing is lost on average. In (0, 1].
+    /// Photons with less energy than this, of 1 at the start, play Russian roulette: they end, or
+    /// go on with this energy, so that nothing is lost on average. In (0, 1].
     double energy_bound = 0.5;
     double turn_per_segment = 0.02; ///< of a round filament's axis, radians; of others 5 times it
     int section_points = 24;        ///< of a section that is not round, 12 to 256
