@@ -72,7 +72,7 @@ struct FabricSimulate final : Command {
         scene::check_output_file(output, {".csv"});
         const lab::Weave weave = weave_named(weave_name);
         const Symmetry symmetry = lab::symmetry_of(weave);
-        const lab::Directions directions = read_directions(symmetry);
+        const Directions directions = read_directions(symmetry);
         if (directions.symmetry > symmetry)
             console.warning(weave_name + ": its symmetry is " + std::string(name_of(symmetry)) +
                             " and not " + std::string(name_of(directions.symmetry)) +
@@ -99,17 +99,16 @@ struct FabricSimulate final : Command {
         return kInterrupted;
     }
 
-    lab::Directions read_directions(Symmetry symmetry) const {
+    Directions read_directions(Symmetry symmetry) const {
         if (directions_name == "normal")
-            return lab::normal_incidence(step_deg.value_or(kNormalStep), symmetry);
+            return normal_incidence(step_deg.value_or(kNormalStep), symmetry);
         if (directions_name != "paper") {
             if (step_deg)
                 throw Error({"--step has no meaning for the directions of a table", "--step",
                              "expected --directions normal or paper"});
-            return lab::directions_of(read_reflectance_table(directions_name));
+            return directions_of(read_reflectance_table(directions_name));
         }
-        return step_deg ? lab::paper_directions(*step_deg, phi_step(*step_deg))
-                        : lab::paper_directions();
+        return step_deg ? paper_directions(*step_deg, phi_step(*step_deg)) : paper_directions();
     }
 
     // Nothing that changes from run to run: equal calls give equal files.

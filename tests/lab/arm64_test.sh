@@ -1,7 +1,7 @@
 #!/bin/bash
 # The lab on 64-bit ARM, the rig's own computer, by the cross compiler of Debian.
 # arm64_test.sh compile|link SOURCE SCRATCH TOMLPLUSPLUS_DIR
-#   compile  builds values and rig (TSUYA_RIG_ONLY) and checks the other sources of the lab
+#   compile  builds values, rig and session (TSUYA_RIG_ONLY) and checks the other sources of the lab
 #   link     links a program that pulses lines; needs what `compile` built, and libgpiod for ARM,
 #            which is fetched from Debian into SCRATCH
 # Skipped (status 77) where the compiler or the packages cannot be had.

@@ -37,31 +37,31 @@ std::optional<double> reachable_deg(const RigAxis &axis, AxisName name, double a
 
 } // namespace
 
-AxisAngles axis_angles_deg(const ReflectanceRow &row) {
+AxisAngles axis_angles_deg(const DirectionPair &pair) {
     AxisAngles angles{};
     const auto set = [&](AxisName name, double degrees) {
         angles[static_cast<std::size_t>(name)] = degrees;
     };
-    set(AxisName::lamp_theta, row.theta_i / kDegree);
-    set(AxisName::lamp_phi, azimuth_deg(row.phi_i - row.phi_r));
-    set(AxisName::camera, row.theta_r / kDegree);
-    set(AxisName::stage, azimuth_deg(-row.phi_r));
+    set(AxisName::lamp_theta, pair.theta_i / kDegree);
+    set(AxisName::lamp_phi, azimuth_deg(pair.phi_i - pair.phi_r));
+    set(AxisName::camera, pair.theta_r / kDegree);
+    set(AxisName::stage, azimuth_deg(-pair.phi_r));
     return angles;
 }
 
-double separation_deg(const ReflectanceRow &row) {
-    const double cosine = glm::dot(row.to_light(), row.to_viewer());
+double separation_deg(const DirectionPair &pair) {
+    const double cosine = glm::dot(pair.to_light(), pair.to_viewer());
     return std::acos(std::clamp(cosine, -1.0, 1.0)) / kDegree;
 }
 
-AxisAngles positions_deg(const RigFile &rig, const ReflectanceRow &row, const AxisAngles &from) {
+AxisAngles positions_deg(const RigFile &rig, const DirectionPair &pair, const AxisAngles &from) {
     Problems problems;
-    const double apart = separation_deg(row);
+    const double apart = separation_deg(pair);
     problems.need(apart >= rig.dead_cone_deg,
                   "lamp and camera would be " + number_text(apart) + " degrees apart",
                   "geometry.dead_cone_deg",
                   "at least " + number_text(rig.dead_cone_deg) + " degrees");
-    AxisAngles positions = axis_angles_deg(row);
+    AxisAngles positions = axis_angles_deg(pair);
     for (std::size_t i = 0; i < kAxes; ++i) {
         const auto name = static_cast<AxisName>(i);
         const RigAxis &axis = rig.axes[i];

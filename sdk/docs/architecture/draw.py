@@ -122,6 +122,7 @@ def layers():
     d.box(480, 324, 180, 60, "color", "color", "lamps, dyes, pictures")
     d.box(480, 244, 180, 60, "lab", "lab/weave", "drafts, yarns, filaments")
     d.box(690, 244, 140, 60, "lab", "lab/goniometer", "photons to a table")
+    d.box(850, 244, 130, 60, "lab", "lab/session", "frames by a plan")
     d.box(850, 324, 130, 60, "lab", "lab/rig", "lamp, shutter")
     d.box(20, 404, 960, 60, "values", "sdk/values",
           "errors, files, spectra, pictures, surfaces, cameras, reflectance tables")
@@ -135,7 +136,8 @@ def layers():
     d.arrow((760, 224), (760, 244))
     d.arrow((690, 274), (660, 274))
     d.arrow((730, 304), (730, 354), (660, 354))
-    d.arrow((915, 224), (915, 324))
+    d.arrow((915, 224), (915, 244))
+    d.arrow((915, 304), (915, 324))
     d.arrow((790, 304), (790, 404))
     for x in (120, 350, 570, 915):
         d.arrow((x, 384), (x, 404))

@@ -26,37 +26,11 @@
 #include <vector>
 
 #include "tsuya/lab/filaments.h"
+#include "tsuya/sdk/directions.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya::lab {
-
-/// A light and a view, radians. theta in [0, pi/2) from the cloth's normal, phi from the weft.
-struct DirectionPair {
-    double theta_i = 0, phi_i = 0;
-    double theta_r = 0, phi_r = 0;
-};
-
-/// What is measured, in any order. Pairs of the same light share its photons.
-struct Directions {
-    std::vector<DirectionPair> pairs{};
-    Symmetry symmetry = Symmetry::none; ///< written into the table
-};
-
-/// Light from straight above and one quadrant of views, both angles every `step_deg` below (theta)
-/// and up to (phi) 90 degrees; straight up once. Throws Error unless step_deg is in (0, 90].
-Directions normal_incidence_quadrant(double step_deg);
-/// The same for cloth of any symmetry: a quadrant of views if it is orthotropic, a half of them
-/// (phi below 180) with half_turn, else all.
-Directions normal_incidence(double step_deg, Symmetry symmetry);
-
-/// The set of [Takeda]: theta_i every 15 degrees below 90 on the planes phi_i = 0, 45, 90; theta_r
-/// every 3 and phi_r every 5 degrees. What differs by nothing is there once (straight down and
-/// straight up at every phi), which leaves 33,424 of 38,880. Coarser views by the steps in degrees.
-Directions paper_directions(double theta_step_deg = 3, double phi_step_deg = 5);
-
-/// The directions of a table.
-Directions directions_of(const ReflectanceTable &table);
 
 /// Which light is measured.
 enum class LightPart {

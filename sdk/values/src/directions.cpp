@@ -1,10 +1,9 @@
-#include <cmath>
+#include "tsuya/sdk/directions.h"
 
-#include "tsuya/lab/goniometer.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
-namespace tsuya::lab {
+namespace tsuya {
 namespace {
 
 constexpr double kSlack = 1e-9; // of angles in degrees that are sums of steps
@@ -57,4 +56,4 @@ Directions directions_of(const ReflectanceTable &table) {
     return directions;
 }
 
-} // namespace tsuya::lab
+} // namespace tsuya

@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// journal.jsonl: what happened in a capture session, one JSON object a line, on the disk before
+/// the next step begins.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tsuya::lab {
+
+/// What happened. A frame counts from its `ok` on.
+enum class EventKind {
+    session, ///< a run of the program began: texts `plan`, `rig` (hashes), `boot`; number `run`
+    move,    ///< axes are sent to positions: one number for each, in degrees of the drive
+    arrived, ///< all of them are there
+    open,    ///< the shutter is about to open (of a dark frame: the exposure begins)
+    close,   ///< it is closed again
+    file,    ///< a picture has come: text `file`, number `bytes`
+    ok,      ///< it passed every check: texts `file`, `hash`; numbers as of CountedFrame
+    reject,  ///< it did not, and was moved: texts `file`, `why`
+    lamp,    ///< number `on` 1 or 0, `strike`, `hours`
+    fault,   ///< text `why`; number `safety` 1 for one that turned the lamp off
+    note,    ///< anything else: text `what`
+};
+
+/// As in the file: `arrived`.
+const char *name_of(EventKind kind);
+
+/// One line of the journal.
+struct JournalEvent {
+    EventKind kind = EventKind::note;
+    std::optional<std::size_t> frame{}; ///< its number in the plan
+    std::map<std::string, std::string> texts{};
+    std::map<std::string, double> numbers{};
+    std::uint64_t seq = 0; ///< from 0, without a gap
+    double time_s = 0;     ///< seconds since 1970
+    bool operator==(const JournalEvent &) const = default;
+
+    /// Empty where there is none.
+    std::string text(const std::string &key) const;
+    /// 0 where there is none.
+    double number(const std::string &key) const;
+};
+
+/// A journal as it was read.
+struct Journal {
+    std::vector<JournalEvent> events{};
+    /// Bytes of whole lines. What follows them was cut off while it was written, and is no part of
+    /// the journal.
+    std::uint64_t whole_bytes = 0;
+    bool torn = false; ///< whether there is such a rest
+};
+
+/// The line of an event, without its line break: its checksum `crc` is the last key, a CRC-32 in
+/// hexadecimal of all that stands before it in the line.
+std::string journal_line(const JournalEvent &event);
+
+/// Reads a journal. A last line without a line break is dropped as torn. Throws Error with
+/// file:line if the file cannot be read, or a line before has a wrong checksum, a `seq` that does
+/// not follow the one before, or an unknown kind or key.
+Journal read_journal(const std::filesystem::path &file);
+
+} // namespace tsuya::lab

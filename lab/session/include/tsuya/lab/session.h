@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// A session's folder: `plan.jsonl`, `rig.toml`, `journal.jsonl`, `frames/`, `rejected/`.
+
+#include "tsuya/lab/journal.h"
+#include "tsuya/lab/plan.h"
+#include "tsuya/lab/rig_file.h"
+
+namespace tsuya::lab {
+
+/// A picture that passed every check.
+struct CountedFrame {
+    /// Its number in the plan; none for a white frame that was taken beside the plan to tell
+    /// whether the lamp is warm.
+    std::optional<std::size_t> number{};
+    PlannedFrame planned{};
+    std::filesystem::path file{}; ///< usable as it is
+    std::string hash{};           ///< of the file's bytes
+    double time_s = 0;            ///< the middle of the exposure, seconds since 1970
+    double exposure_s = 0;        ///< as the picture says, or as planned where it says nothing
+    int strike = 0;               ///< which lighting of the lamp, from 1 for the lamp's first
+    double lamp_hours = 0;        ///< lit until then
+};
+
+/// A picture that did not pass.
+struct RejectedFrame {
+    std::optional<std::size_t> number{}; ///< in the plan
+    std::filesystem::path file{};        ///< empty where no picture came
+    std::string why{};
+};
+
+/// What a session has so far.
+struct Session {
+    std::filesystem::path folder{};
+    RigFile rig{}; ///< as it was at the first run
+    Plan plan{};
+    std::vector<CountedFrame> frames{};    ///< by number; each number once at most
+    std::vector<CountedFrame> warm_up{};   ///< white frames beside the plan, by time
+    std::vector<RejectedFrame> rejected{}; ///< in order of time
+    std::vector<std::size_t> missing{};    ///< numbers of frames that are not there yet
+    std::string plan_hash{}, rig_hash{}, journal_hash{}; ///< of the files' bytes, 16 hex digits
+};
+
+/// Reads a session, also one that is not finished; changes nothing. Throws what read_plan,
+/// read_rig_file and read_journal throw, and Error with file:line of the journal for a frame that
+/// the plan does not have or whose file is gone.
+Session read_session(const std::filesystem::path &folder);
+
+/// The hash of a file's bytes that plan, journal and frames are known by: 16 hex digits.
+std::string file_hash(const std::filesystem::path &file);
+
+} // namespace tsuya::lab
