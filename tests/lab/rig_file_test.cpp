@@ -93,6 +93,11 @@ TEST_F(RigFiles, TheSampleIsReadWhole) {
     EXPECT_TRUE(rig.axis(AxisName::camera).reaches(80));
     EXPECT_FALSE(rig.axis(AxisName::camera).reaches(80.1));
     EXPECT_EQ(rig.dead_cone_deg, 6);
+    EXPECT_EQ(rig.lamp.diameter_mm, 8);
+    EXPECT_EQ(rig.camera.extension, "cr2");
+    EXPECT_EQ(rig.axis(AxisName::lamp_theta).move, Seconds(4));
+    EXPECT_EQ(rig.axis(AxisName::camera).move, Seconds(20));
+    EXPECT_EQ(rig.sample.drive, AxisDrive::by_operator);
     EXPECT_EQ(std::get<double>(rig.white.rho_std), 0.99);
 }
 
@@ -170,6 +175,11 @@ TEST_F(RigFiles, AreRefusedWithPlaceAndReason) {
         {"limits_deg = [-5, 80]", "limits_deg = [80, -5]", "no two ascending positions"},
         {"sign = -1", "sign = 0", "is 0"},
         {"rho_std = 0.99", "rho_std = \"absent.csv\"", "there is no file"},
+        {"extension = \"cr2\"", "extension = \"../x\"", "is '../x'"},
+        {"# response = \"response.csv\"", "response = \"absent.csv\"", "there is no file"},
+        {"drive = \"operator\"            # or", "drive = \"grbl\" # or", "unknown drive 'grbl'"},
+        {"drive = \"operator\"            # or", "drive = \"command\"\ncommand = [\"x\"] #",
+         "the command lacks {sample}"},
     };
     for (const Case &c : cases) {
         int line = 0;

@@ -16,6 +16,8 @@ Plan small_plan() {
     return {.symmetry = Symmetry::half_turn,
             .white = WhiteUse::each_view,
             .views = "few:5",
+            .rig = "/rigs/a.rig.toml",
+            .rig_hash = "0123456789abcdef",
             .frames = {{.kind = FrameKind::white, .view = 0, .directions = at, .exposure_s = 0.1},
                        {.kind = FrameKind::cloth, .view = 1, .directions = at, .exposure_s = 0.01},
                        {.kind = FrameKind::cloth, .view = 1, .directions = at, .exposure_s = 0.1},
@@ -47,6 +49,8 @@ TEST(PlanFile, IsReadAsItWasWritten) {
     EXPECT_EQ(plan.symmetry, Symmetry::half_turn);
     EXPECT_EQ(plan.white, WhiteUse::each_view);
     EXPECT_EQ(plan.views, "few:5");
+    EXPECT_EQ(plan.rig, "/rigs/a.rig.toml");
+    EXPECT_EQ(plan.rig_hash, "0123456789abcdef");
     ASSERT_EQ(plan.frames.size(), 5u);
     EXPECT_EQ(plan.frames[3].kind, FrameKind::dark);
     EXPECT_EQ(plan.frames[2].view, 1u);

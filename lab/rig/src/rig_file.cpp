@@ -11,10 +11,20 @@ namespace {
 constexpr const char *kSchema = "tsuya-rig 1";
 constexpr double kLongest = 86400; // seconds, of any time in the file
 constexpr double kMaxDn = 65535;
+constexpr Seconds kOperatorMove{20}; // for someone to turn an axis by hand
 
 const std::vector<std::string> kRoleNames{"lamp",      "shutter", "half_press", "busy",
                                           "interlock", "estop",   "heartbeat"};
 const std::vector<std::string> kAxisNames{"lamp_theta", "lamp_phi", "camera", "stage"};
+
+/// The file that a key names.
+std::filesystem::path existing_file(const Section &section, const std::filesystem::path &folder,
+                                    const char *key, const std::string &expected) {
+    const std::filesystem::path file = folder / section.required_text(key);
+    if (!std::filesystem::is_regular_file(file))
+        section.problem(key, "there is no file '" + file.string() + "'", "expected " + expected);
+    return file;
+}
 
 void read_seconds(const Section &section, const char *key, Seconds &field) {
     if (const auto seconds = section.number(key, 0, kLongest))
@@ -84,6 +94,8 @@ void read_lamp(const Section &root, const std::filesystem::path &folder, RigLamp
     read_seconds(*section, "hold_s", lamp.hold);
     if (const auto log = section->text("log"))
         lamp.log = folder / *log;
+    lamp.diameter_mm = section->number("diameter_mm", 0, 1e4).value_or(lamp.diameter_mm);
+    lamp.distance_mm = section->number("distance_mm", 0, 1e5).value_or(lamp.distance_mm);
 }
 
 void read_shutter(const Section &root, RigShutter &shutter) {
@@ -136,6 +148,20 @@ void read_trigger(const Section &section, const std::filesystem::path &folder, R
     }
 }
 
+/// The pictures' names, size and encoding.
+void read_pictures(const Section &section, const std::filesystem::path &folder, RigCamera &camera) {
+    if (const auto extension = section.text("extension")) {
+        camera.extension = *extension;
+        if (extension->empty() || extension->find_first_not_of(
+                                      "abcdefghijklmnopqrstuvwxyz0123456789") != std::string::npos)
+            section.problem("extension", "is '" + *extension + "'",
+                            "expected small letters and digits, such as cr2");
+    }
+    camera.frame_mb = section.number("frame_mb", 0.001, 1e4).value_or(camera.frame_mb);
+    if (section.has("response"))
+        camera.response = existing_file(section, folder, "response", "a response curve as CSV");
+}
+
 void read_camera(const Section &root, const std::filesystem::path &folder, RigFile &rig) {
     const auto section = required_section(root, "camera");
     if (!section)
@@ -151,6 +177,7 @@ void read_camera(const Section &root, const std::filesystem::path &folder, RigFi
     camera.e_per_dn = section->required_number("e_per_dn", 1e-3, 1e3);
     camera.read_noise_e = section->required_number("read_noise_e", 0, 1e4);
     camera.patch = section->integer("patch", 1, 4096).value_or(camera.patch);
+    read_pictures(*section, folder, camera);
 }
 
 void read_limits(const Section &section, RigAxis &axis) {
@@ -187,6 +214,9 @@ RigAxis read_axis(const Section &section) {
         section.problem("sign", "is 0", "expected 1 or -1");
     read_limits(section, axis);
     read_seconds(section, "settle_s", axis.settle);
+    if (axis.drive == AxisDrive::by_operator)
+        axis.move = kOperatorMove;
+    read_seconds(section, "move_s", axis.move);
     axis.tolerance_deg = section.number("tolerance_deg", 1e-4, 5).value_or(axis.tolerance_deg);
     return axis;
 }
@@ -216,19 +246,29 @@ void read_axes(const Section &root, RigFile &rig) {
             axes->problem("", "there is no axis '" + name + "'", "expected [axes." + name + "]");
 }
 
+RigSample read_sample(const Section &section) {
+    RigSample sample;
+    sample.drive =
+        static_cast<AxisDrive>(read_choice(section, "drive", {"operator", "command"}, true));
+    if (sample.drive == AxisDrive::command) {
+        sample.command = read_command(section, {"sample"}, {"sample"});
+        sample.change = Seconds(2);
+        read_seconds(section, "timeout_s", sample.timeout);
+    }
+    read_seconds(section, "change_s", sample.change);
+    return sample;
+}
+
 void read_white(const Section &root, const std::filesystem::path &folder, RigWhite &white) {
     const auto section = required_section(root, "white");
     if (!section)
         return;
-    if (!section->is_text("rho_std")) {
+    white.height_mm = section->number("height_mm", -100, 100).value_or(white.height_mm);
+    if (section->is_text("rho_std"))
+        white.rho_std = existing_file(*section, folder, "rho_std",
+                                      "a number, a spectrum as CSV, or a table of the standard");
+    else
         white.rho_std = section->required_number("rho_std", 0.01, 1);
-        return;
-    }
-    const std::filesystem::path file = folder / section->required_text("rho_std");
-    if (!std::filesystem::is_regular_file(file))
-        section->problem("rho_std", "there is no file '" + file.string() + "'",
-                         "expected a number, a spectrum as CSV, or a table of the standard");
-    white.rho_std = file;
 }
 
 } // namespace
@@ -257,6 +297,8 @@ RigFile read_rig_file(const std::filesystem::path &file) {
     read_axes(root, rig);
     if (const auto geometry = root.section("geometry"))
         rig.dead_cone_deg = geometry->number("dead_cone_deg", 0, 45).value_or(rig.dead_cone_deg);
+    if (const auto sample = root.section("sample"))
+        rig.sample = read_sample(*sample);
     read_white(root, folder, rig.white);
     document.finish();
     return rig;

@@ -68,6 +68,8 @@ void take_head(JsonLine line, Plan &plan) {
     plan.symmetry = static_cast<Symmetry>(line.choice("symmetry", kSymmetries));
     plan.white = static_cast<WhiteUse>(line.choice("white", kWhites));
     plan.views = line.text("views");
+    plan.rig = line.text("rig");
+    plan.rig_hash = line.text("rig_hash");
     line.finish();
 }
 
@@ -112,7 +114,9 @@ std::string plan_text(const Plan &plan) {
     std::string text = JsonTree{{"schema", kSchema},
                                 {"symmetry", name_of(plan.symmetry)},
                                 {"white", kWhites[static_cast<std::size_t>(plan.white)]},
-                                {"views", plan.views}}
+                                {"views", plan.views},
+                                {"rig", plan.rig.string()},
+                                {"rig_hash", plan.rig_hash}}
                            .dump() +
                        "\n";
     for (const LeftOut &left_out : plan.left_out)

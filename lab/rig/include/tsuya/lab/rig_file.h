@@ -35,6 +35,8 @@ struct RigLamp {
     Seconds min_on{300};         ///< lit before it is turned off without need
     Seconds hold{600};           ///< stays lit with the shutter closed while a fault is dealt with
     std::filesystem::path log{}; ///< of strikes and hours; empty: none
+    double diameter_mm = 0;      ///< of what shines, seen from the cloth; 0: not known
+    double distance_mm = 0;      ///< from there to the cloth; 0: not known
 };
 
 /// `[shutter]`
@@ -58,6 +60,10 @@ struct RigCamera {
     double e_per_dn = 0;               ///< electrons a DN
     double read_noise_e = 0;           ///< electrons, root mean square
     int patch = 16;                    ///< pixels along the side of the patch that is averaged
+    std::string extension = "tif";     ///< of the pictures' names, in lower case: `cr2`
+    double frame_mb = 8;               ///< size of a picture, for the plan's estimate
+    /// The measured response of a camera whose pictures are encoded; empty: they are linear.
+    std::filesystem::path response{};
 };
 
 /// The axes of a rig. With light from (theta_i, phi_i) and the camera at (theta_r, phi_r) the stage
@@ -83,6 +89,7 @@ struct RigAxis {
     int sign = 1;                       ///< -1: the drive's positions fall as the angle grows
     std::array<double, 2> limits_deg{-180, 180}; ///< positions that the drive can reach
     Seconds settle{0};                           ///< after the arrival
+    Seconds move{2};                             ///< a usual movement takes, for the plan's order
     double tolerance_deg = 0.1;                  ///< of a position
 
     /// The drive's position at an angle of the axis.
@@ -93,10 +100,19 @@ struct RigAxis {
     }
 };
 
+/// `[sample]`: how cloth, white standard and black trap come under the camera.
+struct RigSample {
+    AxisDrive drive = AxisDrive::by_operator; ///< by_operator or command
+    std::vector<std::string> command{};       ///< with the placeholder `{sample}`
+    Seconds timeout{60};                      ///< of the command
+    Seconds change{30};                       ///< a change takes, for the plan's estimate
+};
+
 /// `[white]`
 struct RigWhite {
     /// The standard's reflectance: a number, or a file: a spectrum, or a TABLE.csv of the standard.
     std::variant<double, std::filesystem::path> rho_std = 1.0;
+    double height_mm = 0; ///< of its surface above that of the cloth, towards lamp and camera
 };
 
 /// A whole file. Paths are relative to its folder when they are read, and usable afterwards.
@@ -107,6 +123,7 @@ struct RigFile {
     RigCamera camera{};
     std::array<RigAxis, kAxes> axes{}; ///< by AxisName
     double dead_cone_deg = 6;          ///< lamp and camera come no nearer to each other
+    RigSample sample{};
     RigWhite white{};
 
     const RigAxis &axis(AxisName name) const { return axes[static_cast<std::size_t>(name)]; }

@@ -48,7 +48,9 @@ struct LeftOut {
 struct Plan {
     Symmetry symmetry = Symmetry::none; ///< of the cloth
     WhiteUse white = WhiteUse::each_light;
-    std::string views{}; ///< as they were asked for: `few:5`, `paper`, a file's name
+    std::string views{};         ///< as they were asked for: `few:5`, `paper`, a file's name
+    std::filesystem::path rig{}; ///< the rig file that it was made for
+    std::string rig_hash{};      ///< file_hash() of that
     std::vector<PlannedFrame> frames{};
     std::vector<LeftOut> left_out{};
     bool operator==(const Plan &) const = default;
