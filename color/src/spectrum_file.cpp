@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
+#include "tsuya/sdk/text.h"
 
 namespace tsuya {
 namespace {
@@ -60,8 +60,6 @@ class Reader {
 
     void read(std::string_view line) {
         ++line_;
-        if (line_ == 1 && line.starts_with("\xEF\xBB\xBF")) // byte order mark
-            line.remove_prefix(3);
         const std::size_t first = line.find_first_not_of(kBlank);
         if (first == std::string_view::npos || line[first] == '#')
             return;
@@ -131,12 +129,10 @@ class Reader {
 } // namespace
 
 Spectrum read_spectrum_csv(const std::filesystem::path &path, const ValueRange &range) {
-    std::ifstream file(path);
-    if (!file || std::filesystem::is_directory(path))
-        throw Error({"cannot open the file", path.string(),
-                     std::string("expected a readable CSV file: ") + kColumns});
+    const std::string text = read_text(path);
     Reader reader(path.string(), range);
-    for (std::string line; !reader.full() && std::getline(file, line);)
+    std::istringstream lines(text);
+    for (std::string line; !reader.full() && std::getline(lines, line);)
         reader.read(line);
     return reader.finish();
 }

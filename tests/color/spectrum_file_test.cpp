@@ -17,6 +17,12 @@ TEST(SpectrumFile, ReadsCommentsHeaderAndWindowsLines) {
     EXPECT_EQ(s.value, (std::vector<double>{0.1, 0.5}));
 }
 
+TEST(SpectrumFile, ReadsLoneReturns) {
+    const test::Folder folder;
+    const Spectrum s = read_spectrum_csv(folder.write("s.csv", "# 45\xB0\r400,0.5\r500,1\r"));
+    EXPECT_EQ(s.wavelength_nm, (std::vector<double>{400, 500}));
+}
+
 TEST(SpectrumFile, RoundTripIsExact) {
     const test::Folder folder;
     const Spectrum s{{380.1, 1e3 / 3, 780}, {0.1, 2.0 / 3, 1e-17}};
@@ -58,14 +64,14 @@ TEST(SpectrumFile, StopsAfterTwentyProblems) {
 TEST(SpectrumFile, RefusesAbsentEmptyAndFolder) {
     const test::Folder folder;
     const auto absent = folder / "absent.csv";
-    test::expect_problem([&] { read_spectrum_csv(absent); }, absent.string(), "cannot open");
+    test::expect_problem([&] { read_spectrum_csv(absent); }, absent.string(), "cannot be opened");
     const auto empty = folder.write("empty.csv", "# nothing\nwavelength_nm,value\n");
     test::expect_problem([&] { read_spectrum_csv(empty); }, empty.string(), "no spectrum");
     const auto inside = folder / "no/where.csv";
     test::expect_problem([&] { write_spectrum_csv(inside, Spectrum{}); }, inside.string(),
                          "folder");
     test::expect_problem([&] { read_spectrum_csv(folder / ""); }, (folder / "").string(),
-                         "cannot open");
+                         "it is a folder");
 }
 
 } // namespace

@@ -143,6 +143,30 @@ TEST(Obj, ReadsLargeFilesInBlocksAsIfAtOnce) {
     EXPECT_EQ(places(text).size(), 3u);
 }
 
+TEST(Obj, ReadsFilesOfAnyEncodingAlike) {
+    const std::string text = "v 9 9 9\n" + kThree + "g a\nf 2 3 4\n";
+    std::string lone_returns = text, wide = "\xFF\xFE";
+    std::replace(lone_returns.begin(), lone_returns.end(), '\n', '\r');
+    for (const char c : text)
+        wide += {c, '\0'};
+    for (const std::string &bytes : {text, "\xEF\xBB\xBF" + text, lone_returns, wide}) {
+        PolygonMesh read;
+        EXPECT_EQ(places_in_file(bytes, &read), std::vector<std::string>{"no error"});
+        ASSERT_EQ(read.position.size(), 4u);
+        EXPECT_EQ(read.position[0], glm::dvec3(9));
+        EXPECT_EQ(read.corner_position, (std::vector<std::uint32_t>{1, 2, 3}));
+    }
+    EXPECT_EQ(places_in_file("\xEF\xBB\xBFv 0 x 0\r\r"), std::vector<std::string>{"m.obj:1:5"});
+}
+
+TEST(Obj, EscapesNamesOfACodePage) {
+    // The second name ends in the byte of a backslash, as a character of Shift JIS may.
+    PolygonMesh read;
+    const std::string text = kThree + "g \xBE\xD5\nf 1 2 3\ng \x95\x5C\nf 1 3 2\n";
+    EXPECT_EQ(places_in_file(text, &read), std::vector<std::string>{"no error"});
+    EXPECT_EQ(read.panel_name, (std::vector<std::string>{"\\xBE\\xD5", "\\x95\\x5C"}));
+}
+
 TEST(Obj, MissingFileIsAnError) {
     try {
         read_obj("/nonexistent/m.obj");

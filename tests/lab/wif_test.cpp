@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya::lab {
 namespace {
@@ -135,6 +136,18 @@ TEST(Wif, WrongValuesAreToldWithLineAndColumn) {
                   "d.wif:" + std::to_string(told) + ":" + std::to_string(row.column));
     }
     EXPECT_EQ(problems_of("1=2\n[WIF]\n")[0].where, "d.wif:1:1");
+}
+
+TEST(Wif, FilesOfOldProgramsAreRead) {
+    std::string text = satin_text(kLifted);
+    text.replace(text.find("Hand satin"), 4, "H\xE4nd");
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    const auto path = std::filesystem::path(testing::TempDir()) / "old.wif";
+    write_file(path, "\xEF\xBB\xBF" + text);
+    const Wif wif = read_wif(path);
+    std::filesystem::remove(path);
+    EXPECT_EQ(wif.title, "H\\xE4nd satin");
+    EXPECT_EQ(wif.draft, satin(8, 3));
 }
 
 TEST(Wif, ProblemsAreCollectedUpToTwenty) {

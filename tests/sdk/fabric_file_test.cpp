@@ -389,6 +389,15 @@ TEST_F(WholeFile, IsReadAsWritten) {
     EXPECT_THROW(read_file(file("x.bin").parent_path()), Error);
 }
 
+TEST_F(WholeFile, DocumentsMayHaveAMarkAndReturnsButNoOtherCodePage) {
+    const Document document(file("d.toml", "\xEF\xBB\xBF[a]\rk = \"\xC3\xA9\"\r"));
+    EXPECT_EQ(document.root().section("a")->required_text("k"), "\xC3\xA9");
+    const auto problems = problems_of([](const auto &name) { Document{name}; },
+                                      file("e.toml", "# \xE9\nk = \"\xE9\"\n"));
+    EXPECT_EQ(problems.at(0).where, ":1:3");
+    EXPECT_EQ(problems.at(0).accepted, "expected a file saved as UTF-8");
+}
+
 TEST_F(WholeFile, SectionsKeepTheOrderOfTheFile) {
     const Document document(file("d.toml", "z = { k = \"1\" }\n[b]\nk = \"2\"\n[a]\nk = \"3\"\n"));
     std::string order;

@@ -16,6 +16,7 @@
 #include "tsuya/garment/ply.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
+#include "tsuya/sdk/text.h"
 
 namespace tsuya::garment {
 namespace {
@@ -191,7 +192,7 @@ PolygonMesh read_ply(const std::filesystem::path &path, const Progress &progress
 }
 
 PolygonMesh read_off(const std::filesystem::path &path, const Progress &progress) {
-    return parse_off(read_file(path), path.string(), progress);
+    return parse_off(read_text(path), path.string(), progress);
 }
 
 } // namespace tsuya::garment

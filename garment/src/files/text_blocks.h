@@ -1,11 +1,13 @@
 #pragma once
 /// \file
-/// A text file read block by block, so that its size does not count.
+/// A text file decoded block by block, so that its size does not count.
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+
+#include "tsuya/sdk/text.h"
 
 namespace tsuya::garment {
 
@@ -16,15 +18,17 @@ class TextBlocks {
     explicit TextBlocks(const std::filesystem::path &file);
 
     /// The next block, valid until the next call; empty at the end of the file. Longer than usual
-    /// where one line is. Throws Error naming the file if it cannot be read.
+    /// where one line is. Throws Error naming the file if it cannot be read
+    /// or decoded.
     std::string_view next();
 
   private:
     void read_more();
 
     std::ifstream in_;
-    std::string name_, buffer_;
-    std::size_t filled_ = 0, given_ = 0; ///< bytes of `buffer_` that were read, that were returned
+    std::string name_, bytes_, buffer_;
+    TextDecoder decoder_;
+    std::size_t given_ = 0; ///< bytes of `buffer_` that were returned
 };
 
 } // namespace tsuya::garment

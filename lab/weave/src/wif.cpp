@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "tsuya/sdk/error.h"
-#include "tsuya/sdk/file.h"
+#include "tsuya/sdk/text.h"
 #include "wif_text.h"
 
 namespace tsuya::lab {
@@ -208,7 +208,7 @@ Wif parse_wif(std::string_view content, const std::string &name) {
 }
 
 Wif read_wif(const std::filesystem::path &file) {
-    return parse_wif(read_file(file), file.string());
+    return parse_wif(read_text(file), file.string());
 }
 
 } // namespace tsuya::lab

@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 
 #include "tsuya/sdk/error.h"
-#include "tsuya/sdk/file.h"
+#include "tsuya/sdk/text.h"
 
 namespace tsuya {
 
@@ -50,9 +50,9 @@ void find_unknown(const detail::DocumentState &state, const toml::table &table,
 Document::Document(const std::filesystem::path &file)
     : state_(std::make_unique<detail::DocumentState>()) {
     state_->file = file.string();
-    const std::string bytes = read_file(file);
+    const std::string text = read_text(file, OddBytes::refuse);
     try {
-        state_->root = toml::parse(bytes);
+        state_->root = toml::parse(text);
     } catch (const toml::parse_error &error) {
         throw Error({std::string(error.description()), state_->place(error.source()),
                      "expected a TOML file"});
