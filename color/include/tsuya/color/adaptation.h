@@ -19,6 +19,7 @@ enum class Adaptation { none, bradford, cat02 };
 std::vector<std::string> adaptation_names();
 /// Throws Error for an unknown name, with the known ones and the nearest.
 Adaptation parse_adaptation(std::string_view name);
+/// The name that parse_adaptation reads.
 std::string to_string(Adaptation adaptation);
 
 /// The matrix (GLM: column-major) that takes XYZ under `from_white` to XYZ under `to_white`, in von

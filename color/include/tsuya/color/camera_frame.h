@@ -46,6 +46,7 @@ struct CameraFrame {
     std::string time{};          ///< of the exposure, as the camera wrote it; may be empty
 };
 
+/// What of a frame is read, and how its values become proportional to light.
 struct FrameSettings {
     std::optional<PixelArea> area{};         ///< empty: the whole picture
     std::optional<ResponseCurve> response{}; ///< of a camera whose pictures are encoded

@@ -14,6 +14,7 @@
 
 namespace tsuya {
 
+/// A lamp with the name that it has in reports.
 struct NamedLamp {
     std::string name;
     Spectrum spectrum;
@@ -29,6 +30,7 @@ struct LampDifference {
     std::size_t pixels = 0; ///< how many counted; all measures are 0 where none did
 };
 
+/// How the pictures of lamps are compared.
 struct CompareOptions {
     Adaptation adapt = Adaptation::cat02; ///< each picture is adapted from its lamp to D65
     Observer observer = Observer::cie1931;

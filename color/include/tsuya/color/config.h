@@ -36,6 +36,7 @@ std::string view_description(std::string_view view);
 /// Rises everywhere; the identity to 0.36.
 double soft_shoulder(double linear);
 
+/// How a picture of XYZ becomes one for a display.
 struct DisplayOptions {
     Adaptation adapt = Adaptation::none;
     std::string view = "Plain";
@@ -51,7 +52,9 @@ class DisplayConfig {
     /// Opens a saved config. Throws Error at the path if it cannot be read or is none of ours.
     static DisplayConfig load(const std::filesystem::path &path);
     ~DisplayConfig();
+    /// Moves; the config moved from may only be assigned to.
     DisplayConfig(DisplayConfig &&) noexcept;
+    /// As the move constructor.
     DisplayConfig &operator=(DisplayConfig &&) noexcept;
 
     /// Display-encoded R, G, B in [0, 1] of a picture with channels X, Y, Z (as relight makes it)
@@ -61,6 +64,7 @@ class DisplayConfig {
     Image display(const Image &xyz, const std::string &lamp,
                   const DisplayOptions &options = {}) const;
 
+    /// Names of the colour spaces, as above.
     std::vector<std::string> color_spaces() const;
     /// The config as text (YAML), as OpenColorIO 2.0 and later read it.
     std::string text() const;

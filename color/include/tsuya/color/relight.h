@@ -20,6 +20,7 @@ namespace tsuya {
 std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
                                     Observer observer = Observer::cie1931);
 
+/// The observer and the power of the groups.
 struct RelightOptions {
     Observer observer = Observer::cie1931;
     /// Luminous power of each light group beside the others, >= 0; empty is 1 for all.
@@ -33,6 +34,7 @@ struct RelightOptions {
 /// groups, or a lamp has no visible power.
 Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
               const RelightOptions &options = {});
+/// The same with one lamp for all light groups.
 Image relight(const SpectralImage &transport, const Spectrum &lamp,
               const RelightOptions &options = {});
 

@@ -10,11 +10,13 @@
 
 namespace tsuya {
 
+/// A picture of a sheet, and the words under it.
 struct SheetPicture {
     Image image{};         ///< display-encoded R, G, B, as `display` makes it
     std::string caption{}; ///< under the picture; UTF-8; all shrink until the longest fits
 };
 
+/// Black text on a light ground, or the reverse.
 enum class SheetTheme { light, dark };
 
 /// A grid of pictures of one size, filled row by row; the last row may be short.

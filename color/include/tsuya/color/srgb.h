@@ -14,10 +14,12 @@ glm::dvec3 srgb_white();
 
 /// XYZ (white of srgb_white) to linear Rec. 709 RGB, from the primaries, in double.
 glm::dmat3 srgb_from_xyz();
+/// The inverse of srgb_from_xyz.
 glm::dmat3 xyz_from_srgb();
 
 /// Linear light to code value, and back. Both take any number; negative ones are mirrored.
 double srgb_encode(double linear);
+/// The inverse of srgb_encode.
 double srgb_decode(double encoded);
 
 /// Linear RGB of `#rrggbb` or `#rgb`. Throws Error at `where` for another text.

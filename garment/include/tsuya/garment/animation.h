@@ -33,9 +33,12 @@ class AnimatedGarment {
                     const Progress &progress = {});
 
     ~AnimatedGarment();
+    /// Moves; the garment moved from may only be assigned to.
     AnimatedGarment(AnimatedGarment &&) noexcept;
+    /// As the move constructor.
     AnimatedGarment &operator=(AnimatedGarment &&) noexcept;
 
+    /// The first frame, with its report.
     const LoadedGarment &first() const;
     /// The surface of other positions, in units and order of the file's vertices; its vertices and
     /// triangles have the numbers of the first. Throws Error for another number of positions, or

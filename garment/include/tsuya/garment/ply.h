@@ -22,6 +22,7 @@ PolygonMesh read_off(const std::filesystem::path &path, const Progress &progress
 /// The same from text in memory. \param name stands for the file in errors
 PolygonMesh parse_ply(std::string_view text, const std::string &name,
                       const Progress &progress = {});
+/// As parse_ply, of an OFF file.
 PolygonMesh parse_off(std::string_view text, const std::string &name,
                       const Progress &progress = {});
 

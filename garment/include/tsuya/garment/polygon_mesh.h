@@ -22,12 +22,15 @@ struct PolygonMesh {
     std::vector<std::uint16_t> face_panel{};      ///< per face, into `panel_name`
     std::vector<std::string> panel_name{};        ///< empty: the file names no panel
 
+    /// Number of faces.
     std::size_t face_count() const { return face_offset.size() - 1; }
+    /// Number of corners of face `f`.
     std::uint32_t face_size(std::size_t f) const { return face_offset[f + 1] - face_offset[f]; }
-    /// The corner after / before `c` around face `f`.
+    /// The corner after `c` around face `f`.
     std::uint32_t next(std::size_t f, std::uint32_t c) const {
         return c + 1 == face_offset[f + 1] ? face_offset[f] : c + 1;
     }
+    /// The corner before `c` around face `f`.
     std::uint32_t previous(std::size_t f, std::uint32_t c) const {
         return c == face_offset[f] ? face_offset[f + 1] - 1 : c - 1;
     }

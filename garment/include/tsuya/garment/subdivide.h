@@ -91,7 +91,9 @@ class Subdivider {
     /// Throws as subdivide.
     Subdivider(PolygonMesh mesh, const SubdivideOptions &options, const Progress &progress = {});
     ~Subdivider();
+    /// Moves; the subdivider moved from may only be assigned to.
     Subdivider(Subdivider &&) noexcept;
+    /// As the move constructor.
     Subdivider &operator=(Subdivider &&) noexcept;
 
     /// The limit surface of the mesh as it was given.

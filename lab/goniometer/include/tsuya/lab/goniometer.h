@@ -39,6 +39,7 @@ enum class LightPart {
     body     ///< light that has been in one: what the dye colours
 };
 
+/// How long to trace, what is counted, and how finely filaments are built.
 struct GoniometerSettings {
     /// Per direction of light, > 0; rounded up to whole batches of kPhotonsPerBatch.
     std::uint64_t photons = 1u << 20;
@@ -73,6 +74,7 @@ struct LightReport {
     double relative_error = 0; ///< as of GoniometerSettings::error
 };
 
+/// What `measure` found.
 struct Measurement {
     ReflectanceTable table{}; ///< rows in the order of the pairs, with sigma_per_sr
     std::vector<LightReport> lights{};

@@ -11,6 +11,7 @@
 
 namespace tsuya::lab {
 
+/// Size and view of a picture of a weave.
 struct WeavePictureSettings {
     int width = 900, height = 900; ///< pixels, 16 to 8192
     /// Metres of cloth from left to right; 0: a whole repeat in both directions, no less than 4

@@ -58,6 +58,7 @@ struct PulseReport {
 /// An Error in the middle of a train.
 class PulsesFailed : public Error {
   public:
+    /// With the pulses that were done before.
     PulsesFailed(std::vector<Problem> problems, PulseReport report)
         : Error(std::move(problems)), report_(std::move(report)) {}
     /// The pulses that were done, each within the tolerance.
@@ -70,6 +71,7 @@ class PulsesFailed : public Error {
 /// A train that was stopped.
 class PulsesInterrupted : public Interrupted {
   public:
+    /// With the pulses that were done before.
     PulsesInterrupted(const std::string &what, PulseReport report)
         : Interrupted(what), report_(std::move(report)) {}
     /// The pulses that were done, each within the tolerance.

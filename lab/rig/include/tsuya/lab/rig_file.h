@@ -14,6 +14,7 @@
 
 namespace tsuya::lab {
 
+/// Durations of a rig file.
 using Seconds = std::chrono::duration<double>;
 
 /// What a line is for. Lamp, shutter, half_press and heartbeat are outputs, the others inputs.
@@ -22,8 +23,10 @@ inline constexpr std::size_t kLineRoles = 7;
 
 /// As in the file: `half_press`.
 const char *name_of(LineRole role);
+/// The program sets the line, see LineRole.
 bool is_output(LineRole role);
 
+/// The kind of lamp; the times of RigLamp do not follow from it.
 enum class LampKind { metal_halide, tungsten, led };
 
 /// `[lamp]`
@@ -70,8 +73,10 @@ struct RigCamera {
 /// turns the cloth by -phi_r, and lamp_phi stands at phi_i - phi_r.
 enum class AxisName { lamp_theta, lamp_phi, camera, stage };
 inline constexpr std::size_t kAxes = 4;
+/// As in the file: `lamp_theta`.
 const char *name_of(AxisName axis);
 
+/// What moves an axis.
 enum class AxisDrive {
     by_operator, ///< someone is asked to turn it
     command,     ///< a program; its status 0 means that the axis has arrived
@@ -94,6 +99,7 @@ struct RigAxis {
 
     /// The drive's position at an angle of the axis.
     double position_deg(double angle_deg) const { return zero_deg + sign * angle_deg; }
+    /// The angle is within the limits of the drive.
     bool reaches(double angle_deg) const {
         const double position = position_deg(angle_deg);
         return position >= limits_deg[0] && position <= limits_deg[1];
@@ -126,6 +132,7 @@ struct RigFile {
     RigSample sample{};
     RigWhite white{};
 
+    /// The axis of that name.
     const RigAxis &axis(AxisName name) const { return axes[static_cast<std::size_t>(name)]; }
 };
 

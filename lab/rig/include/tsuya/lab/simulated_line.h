@@ -52,7 +52,9 @@ class SimulatedLine final : public OutputLine {
     void set(bool active) override;
     const std::string &name() const override { return name_; }
 
+    /// The line is on; off before the first `set`.
     bool active() const { return !transitions_.empty() && transitions_.back().active; }
+    /// Every change so far, in order.
     const std::vector<Transition> &transitions() const { return transitions_; }
 
   private:

@@ -35,6 +35,7 @@ class Worker {
   public:
     static constexpr std::chrono::milliseconds kBeat{50}; ///< at most between two beats
 
+    /// Made by run_supervised.
     explicit Worker(detail::WorkerPipes &pipes);
 
     /// The computer's monotonic clock, whose sleeps beat. Sleep with no other.

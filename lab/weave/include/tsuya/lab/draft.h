@@ -37,6 +37,7 @@ Draft satin(int ends, int step);
 /// A twill whose line rises to the right: the warp is up for `over` picks and down for `under`.
 /// Throws Error unless both are above 0 and not both are 1.
 Draft twill(int over, int under);
+/// One over, one under, shifted by one at each pick.
 Draft plain_weave();
 
 /// `plain`, `twill 2/2`, `twill 3/1`, `satin 5` (step 2), `satin 8` (step 3).
@@ -54,6 +55,7 @@ void check_draft(const Draft &draft, const std::string &where);
 /// Lengths of the floats on the face, in crossings, one for each float: warp floats of each end (a
 /// run of crossings with the warp up) or weft floats of each pick (with the warp down).
 std::vector<int> warp_floats(const Draft &draft);
+/// The weft floats, see warp_floats.
 std::vector<int> weft_floats(const Draft &draft);
 /// Of all crossings, those with the warp above; 0 to 1.
 double warp_share(const Draft &draft);

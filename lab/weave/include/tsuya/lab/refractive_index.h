@@ -17,6 +17,7 @@ enum class FiberMaterial {
 
 /// `polyester`, `silk`, `cellulose`.
 std::vector<std::string> fiber_materials();
+/// The name that parse_fiber_material reads.
 std::string name_of(FiberMaterial material);
 /// Throws Error naming `where` with the names that would be accepted.
 FiberMaterial parse_fiber_material(std::string_view name, const std::string &where = "material");

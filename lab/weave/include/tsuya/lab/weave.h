@@ -56,9 +56,11 @@ struct Yarn {
     double scattering_length = 0;
 
     double spacing() const { return 0.01 / per_cm; } ///< metres between the axes
+    /// Height of the section, metres
     double thickness() const { return width * flattening; }
 };
 
+/// A woven cloth: how its yarns cross, and the yarns.
 struct Weave {
     std::string name{};
     Draft draft = plain_weave();

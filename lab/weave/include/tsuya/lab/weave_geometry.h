@@ -22,6 +22,7 @@
 
 namespace tsuya::lab {
 
+/// How finely yarns and filaments are built, and where.
 struct GeometryOptions {
     /// Points of a path per crossing, even, 4 to 64. The points lie on the curve, which is the
     /// periodic Catmull-Rom spline through them.

@@ -24,6 +24,7 @@ struct WifYarns {
     std::vector<glm::dvec3> color{};
 };
 
+/// What a WIF file says of a cloth.
 struct Wif {
     std::string title{};
     Draft drawdown{}; ///< as woven: all threads of the file, 1 to 4096 each way

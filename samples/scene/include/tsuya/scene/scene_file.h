@@ -83,6 +83,7 @@ struct MeshReport {
     garment::Report report{};
 };
 
+/// A scene file with its meshes and fabrics loaded.
 struct BuiltScene {
     Scene scene{};
     std::vector<MeshReport> reports{}; ///< one a visible mesh

@@ -66,6 +66,7 @@ struct LightAccuracy {
     ErrorMeasures error{};
 };
 
+/// The error measures of a model against a table.
 struct Accuracy {
     ErrorMeasures mean{}; ///< of the light directions that have the measure, equally weighted
     std::vector<LightAccuracy> directions{}; ///< by theta_i, then phi_i

@@ -54,8 +54,11 @@ class Bard {
     /// rho0 in 1/sr for a unit direction with z >= 0.
     double at(const glm::dvec3 &to_viewer) const;
 
+    /// As the table declared it.
     Symmetry symmetry() const { return symmetry_; }
+    /// As given, or found by the fit.
     const BardSmoothness &smoothness() const { return smoothness_; }
+    /// The views that were fitted.
     const std::vector<BardView> &views() const { return views_; }
     /// Largest measured value, 1/sr.
     double peak() const { return peak_; }

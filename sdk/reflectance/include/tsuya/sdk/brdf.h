@@ -29,6 +29,7 @@
 namespace tsuya {
 
 // clang-format off
+/// What a model has. All take unit directions; `u` has three random numbers in [0, 1).
 template <class T>
 concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer, glm::vec3 u) {
     /// f in 1/sr
@@ -58,9 +59,11 @@ concept BrdfModel = requires(const T &m, glm::vec3 to_light, glm::vec3 to_viewer
 /// Any of the models, with the functions of the contract.
 class Brdf {
   public:
+    /// The closed set.
     using Models = std::variant<LambertBrdf, TakedaBrdf, TakedaPrintedBrdf, HalfVectorBrdf, GgxBrdf,
                                 TabulatedBrdf, YarnBrdf>;
 
+    /// Any model is a Brdf.
     template <BrdfModel M>
     requires std::constructible_from<Models, M> Brdf(M model) : models_(std::move(model)) {}
 
@@ -71,37 +74,48 @@ class Brdf {
     /// The model where it is of that type; null elsewhere.
     template <class M> const M *get_if() const { return std::get_if<M>(&models_); }
 
+    /// f, 1/sr.
     float evaluate(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
         return visit([&](const auto &m) { return m.evaluate(to_light, to_viewer); });
     }
+    /// f times the light's cosine, 1/sr; stays bounded where the cosine vanishes.
     float evaluate_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
         return visit([&](const auto &m) { return m.evaluate_cos(to_light, to_viewer); });
     }
+    /// Samples a light for a view; weight = f cos_light / pdf. Empty: a null sample, which counts.
     std::optional<SampledDirection> sample(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
         return visit([&](const auto &m) { return m.sample(to_viewer, u); });
     }
+    /// Samples a view for a light; weight = f cos_viewer / pdf.
     std::optional<SampledDirection> sample_adjoint(const glm::vec3 &to_light,
                                                    const glm::vec3 &u) const {
         return visit([&](const auto &m) { return m.sample_adjoint(to_light, u); });
     }
+    /// Density of `sample`, 1/sr of to_light.
     float pdf(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
         return visit([&](const auto &m) { return m.pdf(to_light, to_viewer); });
     }
+    /// `evaluate_cos` and `pdf` at once, which share most of their work.
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
         return visit([&](const auto &m) { return m.weigh(to_light, to_viewer); });
     }
+    /// Density of `sample_adjoint`, 1/sr of to_viewer.
     float pdf_adjoint(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
         return visit([&](const auto &m) { return m.pdf_adjoint(to_light, to_viewer); });
     }
+    /// Share of the light from one direction that is reflected.
     float albedo_of_light(const glm::vec3 &to_light) const {
         return visit([&](const auto &m) { return m.albedo_of_light(to_light); });
     }
+    /// Radiance seen from one direction under a uniform environment of radiance 1.
     float albedo_of_view(const glm::vec3 &to_viewer) const {
         return visit([&](const auto &m) { return m.albedo_of_view(to_viewer); });
     }
+    /// The model claims f(l, v) = f(v, l).
     bool is_reciprocal() const {
         return visit([](const auto &m) { return m.kReciprocal; });
     }
+    /// The model claims an albedo of at most 1 for every light.
     bool is_energy_limited() const {
         return visit([](const auto &m) { return m.kEnergyLimited; });
     }

@@ -72,6 +72,7 @@ struct FabricColours {
 
     /// Colour of what either system of yarns reflects.
     const Spectrum &weft() const;
+    /// As `weft`, of the other system.
     const Spectrum &warp() const;
     bool operator==(const FabricColours &) const = default;
 };
@@ -99,6 +100,7 @@ template <class Kind> const Kind *find_specular(const Fabric &fabric) {
             return found;
     return nullptr;
 }
+/// The same, to be changed.
 template <class Kind> Kind *find_specular(Fabric &fabric) {
     return const_cast<Kind *>(find_specular<Kind>(std::as_const(fabric)));
 }

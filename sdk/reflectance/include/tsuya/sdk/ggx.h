@@ -71,6 +71,7 @@ class GgxCore {
 };
 
 extern template class Model<GgxCore>;
+/// The model, with the functions of Brdf.
 using GgxBrdf = Model<GgxCore>;
 
 } // namespace tsuya

@@ -57,6 +57,7 @@ class HalfVectorCore {
 };
 
 extern template class Model<HalfVectorCore>;
+/// The model, with the functions of Brdf.
 using HalfVectorBrdf = Model<HalfVectorCore>;
 
 } // namespace tsuya

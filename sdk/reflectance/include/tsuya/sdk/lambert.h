@@ -35,6 +35,7 @@ class LambertCore {
 };
 
 extern template class Model<LambertCore>;
+/// The model, with the functions of Brdf.
 using LambertBrdf = Model<LambertCore>;
 
 } // namespace tsuya

@@ -13,6 +13,7 @@
 
 namespace tsuya {
 
+/// A model as files and the program name it.
 struct ModelName {
     std::string_view name;
     std::string_view description;

@@ -61,6 +61,7 @@ class TabulatedCore {
 };
 
 extern template class Model<TabulatedCore>;
+/// The model, with the functions of Brdf.
 using TabulatedBrdf = Model<TabulatedCore>;
 
 } // namespace tsuya

@@ -78,6 +78,7 @@ class TakedaCore {
 };
 
 extern template class Model<TakedaCore>;
+/// The model, with the functions of Brdf.
 using TakedaBrdf = Model<TakedaCore>;
 
 } // namespace tsuya

@@ -52,6 +52,7 @@ class TakedaPrintedCore {
 };
 
 extern template class Model<TakedaPrintedCore>;
+/// The model, with the functions of Brdf.
 using TakedaPrintedBrdf = Model<TakedaPrintedCore>;
 
 } // namespace tsuya

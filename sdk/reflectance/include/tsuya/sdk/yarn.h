@@ -80,6 +80,7 @@ class YarnCore {
 };
 
 extern template class Model<YarnCore>;
+/// The model, with the functions of Brdf.
 using YarnBrdf = Model<YarnCore>;
 
 } // namespace tsuya

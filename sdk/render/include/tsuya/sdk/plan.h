@@ -27,6 +27,7 @@ struct Plan {
     std::vector<Skip> skips{};
 };
 
+/// Finds what the scene and the settings do not need. The picture is the same with and without it.
 Plan plan(const Scene &scene, const RenderSettings &settings);
 
 /// The plan as lines of text.

@@ -31,6 +31,7 @@ struct StopRule {
 
 struct RenderResult;
 
+/// What `render` is told beside the scene.
 struct RenderSettings {
     StopRule stop{};
     int channels = 16;    ///< 8, 16 or 32
@@ -75,6 +76,7 @@ struct RenderStats {
     bool interrupted = false;
 };
 
+/// The light transport, what was done for it, and what to tell the user.
 struct RenderResult {
     SpectralImage image{};
     RenderStats stats{};

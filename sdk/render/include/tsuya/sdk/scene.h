@@ -22,8 +22,11 @@ template <class Tag> struct Index {
     std::uint32_t value = 0;
     bool operator==(const Index &) const = default;
 };
+/// Into Scene::surfaces.
 using SurfaceIndex = Index<struct SurfaceTag>;
+/// Into Scene::fabrics.
 using FabricIndex = Index<struct FabricTag>;
+/// Into Scene::light_groups.
 using LightGroupIndex = Index<struct LightGroupTag>;
 
 /// Bounds within which sums of float products stay finite: over 65536 samples, with responses of
@@ -57,6 +60,7 @@ struct Environment {
     bool visible = true; ///< to the camera directly
 };
 
+/// All that is rendered. Parts refer to each other by index. Positions are in metres.
 struct Scene {
     std::vector<Surface> surfaces{};
     std::vector<Fabric> fabrics{};

@@ -16,7 +16,9 @@ struct DirectionPair {
     double theta_i = 0, phi_i = 0;
     double theta_r = 0, phi_r = 0;
 
+    /// Unit, z >= 0.
     glm::dvec3 to_light() const { return direction_of(theta_i, phi_i); }
+    /// Unit, z >= 0.
     glm::dvec3 to_viewer() const { return direction_of(theta_r, phi_r); }
     bool operator==(const DirectionPair &) const = default;
 };

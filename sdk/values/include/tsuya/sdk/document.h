@@ -26,24 +26,33 @@ struct DocumentState;
 /// missing or wrong; `Document::finish` throws them all.
 class Section {
   public:
+    /// The key is there, with any value.
     bool has(std::string_view key) const;
+    /// The key is there, and its value is a text.
     bool is_text(std::string_view key) const;
     /// file:line:column of a key, of the section where the key is absent.
     std::string where(std::string_view key = {}) const;
 
+    /// A text; empty where the key is absent.
     std::optional<std::string> text(std::string_view key) const;
+    /// A text; a problem where the key is absent.
     std::string required_text(std::string_view key) const;
     /// Numbers outside [low, high] and not finite ones are problems.
     std::optional<double> number(std::string_view key,
                                  double low = -std::numeric_limits<double>::max(),
                                  double high = std::numeric_limits<double>::max()) const;
+    /// As `number`; a problem where the key is absent.
     double required_number(std::string_view key, double low = -std::numeric_limits<double>::max(),
                            double high = std::numeric_limits<double>::max()) const;
+    /// A whole number; outside [low, high] it is a problem.
     std::optional<int> integer(std::string_view key, int low, int high) const;
+    /// true or false.
     std::optional<bool> flag(std::string_view key) const;
     /// An array of finite numbers.
     std::optional<std::vector<double>> numbers(std::string_view key) const;
+    /// An array of three finite numbers.
     std::optional<glm::dvec3> vector(std::string_view key) const;
+    /// An array of texts.
     std::optional<std::vector<std::string>> texts(std::string_view key) const;
     /// All keys of the section with texts as values.
     std::vector<std::pair<std::string, std::string>> all_texts() const;
@@ -66,6 +75,7 @@ class Section {
     const void *table_;
 };
 
+/// A TOML file that is read key by key.
 class Document {
   public:
     /// Throws Error with file:line:column if the file cannot be read or is not TOML.
@@ -74,6 +84,7 @@ class Document {
     Document(const Document &) = delete;
     Document &operator=(const Document &) = delete;
 
+    /// The keys before the first table, and all tables.
     Section root() const;
     /// Throws Error with every problem noted so far, unknown keys among them with the nearest known
     /// key.

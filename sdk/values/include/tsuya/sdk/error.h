@@ -24,9 +24,11 @@ inline constexpr std::size_t kMaxProblems = 20;
 /// line: `where: what; accepted`.
 class Error : public std::runtime_error {
   public:
+    /// One problem.
     explicit Error(Problem problem);
     /// \param problems at least one
     explicit Error(std::vector<Problem> problems);
+    /// At least one.
     const std::vector<Problem> &problems() const noexcept { return problems_; }
     /// The same problems, all at another place: for a caller who knows it better.
     Error at(const std::string &where) const;
@@ -46,8 +48,11 @@ class Problems {
     void add(const Error &error);
     /// Notes a problem unless the rule holds. \return the rule
     bool need(bool rule, std::string what, std::string where, std::string accepted);
+    /// Nothing was noted.
     bool empty() const { return problems_.empty(); }
+    /// Further problems would be dropped: a reader may stop.
     bool full() const { return problems_.size() >= kMaxProblems; }
+    /// In the order in which they were noted.
     const std::vector<Problem> &all() const { return problems_; }
     /// Throws Error with all that were noted; returns where there are none.
     void throw_if_any() const;

@@ -12,9 +12,11 @@ struct Frame {
     glm::vec3 warp{0, 1, 0};
     glm::vec3 normal{0, 0, 1};
 
+    /// Components of a direction along weft, warp and normal.
     glm::vec3 to_local(const glm::vec3 &d) const {
         return {glm::dot(d, weft), glm::dot(d, warp), glm::dot(d, normal)};
     }
+    /// The inverse of to_local.
     glm::vec3 to_world(const glm::vec3 &d) const { return d.x * weft + d.y * warp + d.z * normal; }
 };
 

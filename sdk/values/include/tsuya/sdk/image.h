@@ -15,8 +15,11 @@ struct Image {
     std::vector<std::string> channels{}; ///< names, e.g. {"R", "G", "B"}
     std::vector<float> data{}; ///< [y][x][channel], width * height * channels.size() values
 
+    /// All values 0.
     static Image make(int width, int height, std::vector<std::string> channels);
+    /// The channels of a pixel, one after the other. Not checked against the size.
     float *pixel(int x, int y) { return data.data() + offset(x, y); }
+    /// The same, to be read.
     const float *pixel(int x, int y) const { return data.data() + offset(x, y); }
 
   private:

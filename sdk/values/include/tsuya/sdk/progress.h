@@ -15,7 +15,9 @@ struct Progress {
     std::function<void(std::string_view stage, double fraction)> report{};
     const std::atomic<bool> *stop = nullptr; ///< set to true to ask the work to stop
 
+    /// The caller asked the work to stop.
     bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
+    /// Calls `report` where there is one.
     void operator()(std::string_view stage, double fraction) const {
         if (report)
             report(stage, fraction);

@@ -20,6 +20,7 @@ enum class Symmetry {
     orthotropic, ///< also rho(theta, phi) = rho(theta, -phi): two orthogonal axes
 };
 
+/// As in files: `half-turn`.
 const char *name_of(Symmetry symmetry);
 
 /// One measured pair of directions. Angles in radians; phi from the weft axis.
@@ -29,7 +30,9 @@ struct ReflectanceRow {
     double brdf_per_sr = 0;  ///< without the cosine, >= 0
     double sigma_per_sr = 0; ///< standard error; 0 where unknown
 
+    /// Unit, z >= 0.
     glm::dvec3 to_light() const { return direction_of(theta_i, phi_i); }
+    /// Unit, z >= 0.
     glm::dvec3 to_viewer() const { return direction_of(theta_r, phi_r); }
     bool operator==(const ReflectanceRow &) const = default;
 };
@@ -41,6 +44,7 @@ struct ReflectanceTable {
     bool symmetry_declared = true; ///< false: the file says nothing, and orthotropic is assumed
     std::vector<ReflectanceRow> rows{};
 
+    /// A row has a standard error.
     bool has_sigma() const;
     /// The rows with light from straight above.
     ReflectanceTable normal_incidence() const;

@@ -25,9 +25,12 @@ struct SpectralImage {
     std::vector<std::string> aov_names{};
     std::map<std::string, std::string> metadata{}; ///< provenance, e.g. {"samples_per_pixel", "64"}
 
+    /// All transport 0, without AOVs.
     static SpectralImage make(int width, int height, SpectralBasis basis,
                               std::vector<std::string> groups);
+    /// The channels of a pixel, one after the other. Not checked against the size.
     float *pixel(std::size_t group, int x, int y) { return transport.data() + offset(group, x, y); }
+    /// The same, to be read.
     const float *pixel(std::size_t group, int x, int y) const {
         return transport.data() + offset(group, x, y);
     }

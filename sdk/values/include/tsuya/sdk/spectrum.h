@@ -13,9 +13,12 @@ struct Spectrum {
     std::vector<double> wavelength_nm{560.0}; ///< strictly increasing
     std::vector<double> value{0.0};           ///< as many as wavelengths
 
+    /// The same value at every wavelength.
     static Spectrum constant(double value) { return {{560.0}, {value}}; }
     bool operator==(const Spectrum &) const = default;
+    /// All samples have one value.
     bool is_constant() const;
+    /// A sample is above 0.
     bool any_above_zero() const;
     /// Value at a wavelength in nm. O(log n).
     double at(double wavelength_nm) const;
@@ -32,6 +35,7 @@ struct SpectralBasis {
     double first_nm = 400.0;
     double last_nm = 700.0;
 
+    /// Wavelength at which the function of a channel is 1; channels count from 0.
     double centre_nm(int channel) const;
     /// Value of a basis function at a wavelength, in [0, 1].
     double weight(int channel, double wavelength_nm) const;

@@ -16,7 +16,7 @@ enum class OddBytes {
 };
 
 /// Decodes a text block by block. A byte order mark is taken off; UTF-16, known by its mark or by a
-/// first character below 256, becomes UTF-8; "\r\n" and a lone '\r' become '\n'. A half of a
+/// first character below 256, becomes UTF-8; CR LF and a lone CR become LF. A half of a
 /// surrogate pair becomes U+FFFD.
 class TextDecoder {
   public:
