@@ -1,10 +1,13 @@
 // Errors, files, checkpoints and what else long work shares.
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "limited_disk.h"
@@ -61,6 +64,40 @@ TEST_F(Files, AnAbandonedReplacementLeavesNothing) {
         replacement.write("half");
     }
     EXPECT_EQ(entries(), 0u);
+}
+
+// A process that is killed while it writes leaves nothing beside the file.
+TEST_F(Files, AKilledReplacementLeavesNothing) {
+    const int unnamed = open(folder_.c_str(), O_TMPFILE | O_WRONLY, 0600);
+    if (unnamed < 0)
+        GTEST_SKIP() << "the file system has no files without names";
+    close(unnamed);
+    const fs::path file = folder_ / "a.txt";
+    write_file(file, "old");
+    const pid_t child = fork();
+    if (child == 0) {
+        FileReplacement replacement(file);
+        replacement.write(std::string(100'000, 'x'));
+        raise(SIGKILL);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(entries(), 1u);
+    EXPECT_EQ(read_file(file), "old");
+}
+
+// One that had the number of this process before, on a file system without files without names
+TEST_F(Files, AnOldTemporaryFileIsInNobodysWay) {
+    const fs::path file = folder_ / "a.txt";
+    std::ofstream(temporary_name(file)) << "half";
+    write_file(file, "new");
+    EXPECT_EQ(read_file(file), "new");
+    EXPECT_EQ(entries(), 1u);
+    const auto permissions = fs::status(file).permissions();
+    const fs::path plain = folder_ / "plain.txt";
+    std::ofstream(plain) << "x";
+    EXPECT_EQ(permissions, fs::status(plain).permissions());
 }
 
 TEST(FileErrors, SayWhatWouldHelp) {

@@ -5,11 +5,18 @@
 #include <fstream>
 #include <iterator>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
+namespace {
+
+// The name of an open file in the system's own folder.
+std::string name_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
+} // namespace
 
 std::string read_file(const std::filesystem::path &file) {
     std::error_code code;
@@ -57,18 +64,44 @@ void replace_file(const std::filesystem::path &temporary, const std::filesystem:
 
 FileReplacement::FileReplacement(std::filesystem::path file)
     : file_(std::move(file)), part_(temporary_name(file_)) {
+    open();
+}
+
+FileReplacement::~FileReplacement() {
+    out_.close();
+    if (unnamed_ >= 0)
+        close(unnamed_);
+    if (committed_)
+        return;
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+}
+
+void FileReplacement::open() {
+    const std::filesystem::path folder = file_.parent_path();
+    unnamed_ =
+        ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (unnamed_ >= 0) {
+        out_.open(name_of(unnamed_), std::ios::binary);
+        if (out_)
+            return;
+        close(unnamed_); // no /proc
+        unnamed_ = -1;
+    }
     errno = 0;
     out_.open(part_, std::ios::binary);
     if (!out_)
         fail(errno);
 }
 
-FileReplacement::~FileReplacement() {
-    if (committed_)
+// No system call puts a file without a name in the place of another, so it gets the temporary one.
+void FileReplacement::give_name() {
+    if (unnamed_ < 0)
         return;
-    out_.close();
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
+    unlink(part_.c_str()); // of a process that had this number before
+    if (linkat(AT_FDCWD, name_of(unnamed_).c_str(), AT_FDCWD, part_.c_str(), AT_SYMLINK_FOLLOW) !=
+        0)
+        fail(errno);
 }
 
 void FileReplacement::write(std::string_view bytes) {
@@ -82,6 +115,7 @@ void FileReplacement::commit() {
     out_.close();
     if (!out_)
         fail(errno);
+    give_name();
     committed_ = true; // the name is taken, or removed by replace_file
     replace_file(part_, file_);
 }

@@ -17,7 +17,9 @@ std::string read_file(const std::filesystem::path &file);
 void write_file(const std::filesystem::path &file, std::string_view bytes);
 
 /// Atomic replacement of a file that is written piece by piece: under a temporary name beside it,
-/// renamed when it is complete. Without `commit` the temporary file is removed again.
+/// renamed when it is complete. Without `commit` nothing is left. Until then the temporary file has
+/// no name where the file system can do that (O_TMPFILE), so that a process that is killed leaves
+/// nothing either; elsewhere it leaves `.NAME.PID.part.EXTENSION`.
 class FileReplacement {
   public:
     /// Throws Error naming the file if nothing can be written beside it.
@@ -32,9 +34,12 @@ class FileReplacement {
     void commit();
 
   private:
+    void open();
+    void give_name();
     [[noreturn]] void fail(int code);
 
     std::filesystem::path file_, part_;
+    int unnamed_ = -1; ///< descriptor of a file without a name
     std::ofstream out_;
     bool committed_ = false;
 };
