@@ -1,5 +1,6 @@
 #include "tsuya/sdk/accuracy.h"
 
+#include <atomic>
 #include <cmath>
 #include <iostream>
 #include <numeric>
@@ -206,6 +207,11 @@ TEST(Accuracy, RefusesWhatCannotBeCompared) {
             EXPECT_NE(error.problems()[0].where.find("light (30.0"), std::string::npos)
                 << error.what();
         }
+}
+
+TEST(Accuracy, Stops) {
+    const std::atomic<bool> stop = true;
+    EXPECT_THROW(measure_accuracy(two_lights(), lobe, {.stop = &stop}), Interrupted);
 }
 
 // The truth measured with noise of the stated sigma, some times over: root of the mean square of

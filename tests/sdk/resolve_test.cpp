@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sdk/synthetic_table.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::test {
@@ -75,6 +76,32 @@ TEST(NeedsFrames, FollowsTheSpecularPart) {
     Fabric colourless = satin();
     colourless.colours.specular_tint = Spectrum::constant(0);
     EXPECT_FALSE(needs_frames(colourless));
+}
+
+// Light from one quadrant without a symmetry, taken for light from all sides, made a cloth look
+// twice as bright.
+TEST(FabricWarnings, NameTheSymmetryThatATableMayHaveForgotten) {
+    const auto said = [](Symmetry symmetry, const std::vector<double> &phi_deg) {
+        TabulatedSpecular tabulated{.table = {.symmetry = symmetry}};
+        for (const double phi : phi_deg)
+            tabulated.table.rows.push_back({0.5, phi * kDegree, 0.2, 0, 0.1, 0});
+        tabulated.table.rows.push_back({0, 3, 0.2, 0, 0.1, 0}); // the azimuth of the normal is none
+        const auto warnings = fabric_warnings({.name = "f", .specular = tabulated}, "fabrics.f");
+        if (warnings.empty())
+            return std::string();
+        EXPECT_EQ(warnings[0].where, "fabrics.f.table");
+        const std::string &text = warnings[0].accepted;
+        const auto begin = text.find(": ") + 2;
+        return text.substr(begin, text.find('`', begin) - begin);
+    };
+    EXPECT_EQ(said(Symmetry::none, {0, 45, 90}), "orthotropic");
+    EXPECT_EQ(said(Symmetry::none, {-30, 20}), "orthotropic"); // beyond the weft
+    EXPECT_EQ(said(Symmetry::none, {0, 45, 90, 135}), "half-turn");
+    EXPECT_EQ(said(Symmetry::none, {0, 90, 180, 270}), "");
+    EXPECT_EQ(said(Symmetry::none, {10, 190}), "");
+    EXPECT_EQ(said(Symmetry::none, {}), "");
+    EXPECT_EQ(said(Symmetry::orthotropic, {0, 45, 90}), "");
+    EXPECT_TRUE(fabric_warnings({.name = "plain"}, "fabrics.plain").empty());
 }
 
 TEST(Resolve, RefusesTwoDescriptionsOfOneKind) {

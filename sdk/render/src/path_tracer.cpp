@@ -9,9 +9,10 @@
 //   lights met       M_n = f(w_n) |cos| / p(w_n)  sum over lights i of  L_i(w_n) m_p(w_n)
 //
 // with f the BRDF, L_i the radiance of light i, V its visibility, and q_n the probability that the
-// path goes on (Russian roulette, [Veach] section 10.4.1). Light i is sampled with density p_i; at
-// x_0 every light is (c_i = 1), at later vertices one, chosen with probability c_i. The sums over
-// both ways to find a light are weighted by the balance heuristic, [Veach] section 9.2.2:
+// path goes on (Russian roulette, [Veach] chapter Monte Carlo Integration). Light i is sampled with
+// density p_i; at x_0 every light is (c_i = 1), at later vertices one, chosen with probability c_i.
+// The sums over both ways to find a light are weighted by the balance heuristic, [Veach] chapter
+// Multiple Importance Sampling:
 //
 //   m_i(w) = c_i p_i(w) / (c_i p_i(w) + p(w)),    m_p(w) = p(w) / (c_i p_i(w) + p(w))
 //

@@ -123,6 +123,9 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     keeper.finish();
     RenderResult result = result_so_far();
     result.stats.interrupted = interrupted;
+    for (const Fabric &fabric : scene.fabrics)
+        for (Problem &warning : fabric_warnings(fabric, "fabrics." + fabric.name))
+            result.warnings.push_back(std::move(warning));
     if (keeper.problem())
         result.warnings.push_back(*keeper.problem());
     return result;

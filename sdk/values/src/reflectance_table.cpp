@@ -4,7 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "tsuya/sdk/error.h"
@@ -184,6 +186,24 @@ ReflectanceTable ReflectanceTable::normal_incidence() const {
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(result.rows),
                  [](const ReflectanceRow &r) { return r.theta_i < 1e-9; });
     return result;
+}
+
+std::optional<Symmetry> likely_symmetry(const ReflectanceTable &table) {
+    constexpr double kSlack = kDegree; // of angles as rigs write them
+    if (table.symmetry != Symmetry::none)
+        return std::nullopt;
+    std::set<double> azimuths;
+    for (const ReflectanceRow &row : table.rows)
+        if (row.theta_i > kSlack)
+            azimuths.insert(std::fmod(row.phi_i + 4 * kPi, 2 * kPi));
+    if (azimuths.empty())
+        return std::nullopt;
+    double gap = 2 * kPi - *azimuths.rbegin() + *azimuths.begin();
+    for (auto next = std::next(azimuths.begin()); next != azimuths.end(); ++next)
+        gap = std::max(gap, *next - *std::prev(next));
+    if (gap > 1.5 * kPi - kSlack)
+        return Symmetry::orthotropic;
+    return gap > kPi + kSlack ? std::optional(Symmetry::half_turn) : std::nullopt;
 }
 
 void check_table(const ReflectanceTable &table, const std::string &where) {

@@ -142,6 +142,21 @@ void check_fabric(const Fabric &fabric, const std::string &where) {
     problems.throw_if_any();
 }
 
+std::vector<Problem> fabric_warnings(const Fabric &fabric, const std::string &where) {
+    const auto *const tabulated = std::get_if<TabulatedSpecular>(&fabric.specular);
+    if (!tabulated)
+        return {};
+    const auto symmetry = likely_symmetry(tabulated->table);
+    if (!symmetry)
+        return {};
+    return {
+        {"the table has symmetry none and light from one side only, which is taken for light from "
+         "all sides",
+         where + ".table",
+         std::string("declare `# symmetry: ") + name_of(*symmetry) +
+             "` in it if the cloth has that symmetry"}};
+}
+
 Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress) {
     check_fabric(fabric, where);
     return {.specular = make_brdf(fabric, where, progress),

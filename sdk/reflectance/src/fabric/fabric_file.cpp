@@ -141,6 +141,9 @@ class SpecularReader {
           views_(read_views(root, read_symmetry(root))), f0_(root.number("f0", 1e-6, 1)),
           smoothness_(read_section<BardSmoothness>(root, "smoothness")),
           yarn_(read_section<YarnLobes>(root, "yarn")), ggx_(read_section<GgxFacets>(root, "ggx")) {
+        if (f0_ && !views_)
+            root.problem("f0", "f0 stands without [views]",
+                         "expected [views], whose model looks at it, or f0 in [yarn] or [ggx]");
         if (model_)
             try {
                 check_model_name(*model_, "");

@@ -9,6 +9,7 @@
 
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "views/stop.h"
 
 namespace tsuya {
 namespace {
@@ -151,7 +152,8 @@ ErrorMeasures mean_of(const std::vector<LightAccuracy> &directions) {
 
 std::span<const NamedMeasure> error_measures() { return kMeasures; }
 
-Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &model) {
+Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &model,
+                          const Progress &progress) {
     if (table.rows.empty())
         throw Error({"the table has no row", "table", "expected measured directions"});
     std::map<std::pair<long long, long long>, std::vector<const ReflectanceRow *>> by_light;
@@ -167,6 +169,7 @@ Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &mod
              .views = rows.size()});
     }
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t i) {
+        stop_if_asked(progress);
         accuracy.directions[i].error = measure(make_views(*groups[i], table.symmetry, model));
     });
     accuracy.mean = mean_of(accuracy.directions);

@@ -18,6 +18,7 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya {
@@ -83,7 +84,9 @@ std::vector<double> solid_angles(std::span<const glm::dvec3> to_viewer, const gl
                                  Symmetry symmetry);
 
 /// Compares the model with every row of the table, light direction by light direction. Throws Error
-/// for a table without rows, and naming both directions where the model is not finite or negative.
-Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &model);
+/// for a table without rows, and naming both directions where the model is not finite or negative;
+/// Interrupted where progress asks to stop.
+Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &model,
+                          const Progress &progress = {});
 
 } // namespace tsuya

@@ -17,6 +17,7 @@
 
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/brdf.h"
+#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/spectrum.h"
 #include "tsuya/sdk/yarn_lobes.h"
@@ -126,6 +127,10 @@ double f0_of(const CarriedViews &views);
 /// transmittance above 1 together; f0 outside (0, 1]; facets as check_ggx; two descriptions of one
 /// kind; tints of weft and warp for a specular part that does not tell them apart.
 void check_fabric(const Fabric &fabric, const std::string &where);
+
+/// What is allowed and probably not meant, each with its place below `where`: a table of which
+/// likely_symmetry knows better, that the model `tabulated` would carry on to light from all sides.
+std::vector<Problem> fabric_warnings(const Fabric &fabric, const std::string &where);
 
 /// Resolved. Local space, see brdf.h; both sides of a cloth are alike.
 struct Material {

@@ -80,8 +80,8 @@ struct RenderStats {
 struct RenderResult {
     SpectralImage image{};
     RenderStats stats{};
-    /// What went wrong and did not cost the picture: samples that are not finite, a checkpoint that
-    /// could not be written. To be shown.
+    /// What went wrong and did not cost the picture: samples that are not finite, fabric_warnings,
+    /// a checkpoint that could not be written. To be shown.
     std::vector<Problem> warnings{};
 };
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,11 @@ struct ReflectanceTable {
 /// number, a value below 0, an angle from the normal outside 0 to 90 degrees; rows of one pair of
 /// directions that differ by more than a factor of 2 and more than their standard errors allow.
 void check_table(const ReflectanceTable &table, const std::string &where);
+
+/// The symmetry that a table which declares none may have forgotten: `orthotropic` where its light
+/// comes from one quadrant about the normal, `half_turn` where from less than half of all azimuths.
+/// Empty for light from straight above alone, from further round, and for tables that declare one.
+std::optional<Symmetry> likely_symmetry(const ReflectanceTable &table);
 
 /// Reads TABLE.csv: comment lines `# key: value`, a header line, and rows
 /// `theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr[,sigma_per_sr]`, degrees.
