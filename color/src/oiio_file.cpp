@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <tbb/task_arena.h>
 
 #include "rows.h"
 #include "tsuya/sdk/error.h"
@@ -24,6 +25,15 @@ std::string one_line(std::string text) {
     return text.empty() ? "unknown cause" : text;
 }
 
+/// Gives OpenImageIO and OpenEXR as many threads as the caller's arena has, see
+/// detail::run_with_threads. The number is the library's own and global: of two callers at once,
+/// the later one's holds.
+void use_threads_of_arena() {
+    const int threads = tbb::this_task_arena::max_concurrency();
+    OIIO::attribute("threads", threads);
+    OIIO::attribute("exr_threads", threads);
+}
+
 /// Encodes one picture in memory, and then writes the file at once: OpenImageIO reports success
 /// where the last bytes of a file do not fit on the disk.
 class Encoder {
@@ -34,6 +44,7 @@ class Encoder {
         if (path_.extension() != '.' + format)
             throw Error(
                 {"the file does not end in ." + format, path_.string(), "expected NAME." + format});
+        use_threads_of_arena();
         output_ = OIIO::ImageOutput::create(format);
         if (!output_ || !output_->set_ioproxy(&bytes_))
             fail(OIIO::geterror());
@@ -111,6 +122,7 @@ InputPicture read_picture(const std::filesystem::path &path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored))
         throw Error({"there is no such file", path.string(), "expected a readable picture"});
+    use_threads_of_arena();
     const auto in = OIIO::ImageInput::open(path.string());
     if (!in)
         throw Error({"cannot read the picture: " + one_line(OIIO::geterror()), path.string(),

@@ -84,17 +84,16 @@ class Reader {
 
     Spectrum finish() {
         if (problems_.empty() && spectrum_.value.empty())
-            problems_.push_back({"the file holds no spectrum", path_, kColumns});
-        if (!problems_.empty())
-            throw Error(problems_);
+            problems_.add({"the file holds no spectrum", path_, kColumns});
+        problems_.throw_if_any();
         return std::move(spectrum_);
     }
 
-    bool full() const { return problems_.size() >= kMaxProblems; }
+    bool full() const { return problems_.full(); }
 
   private:
     bool check(double wavelength_nm, const Field &at, double value, const Field &value_at) {
-        const std::size_t before = problems_.size();
+        const std::size_t before = problems_.all().size();
         if (wavelength_nm <= 0)
             add("the wavelength is " + as_text(wavelength_nm) + " nm", at.column,
                 "expected a wavelength greater than 0");
@@ -107,15 +106,13 @@ class Reader {
                 range_.high < ValueRange{}.high
                     ? "expected " + as_text(range_.low) + " to " + as_text(range_.high)
                     : "expected " + as_text(range_.low) + " or more");
-        return problems_.size() == before;
+        return problems_.all().size() == before;
     }
 
     void add(std::string what, std::size_t column, std::string accepted) {
-        if (full())
-            return;
-        problems_.push_back({std::move(what),
-                             path_ + ':' + std::to_string(line_) + ':' + std::to_string(column),
-                             std::move(accepted)});
+        problems_.add({std::move(what),
+                       path_ + ':' + std::to_string(line_) + ':' + std::to_string(column),
+                       std::move(accepted)});
     }
 
     std::string path_;
@@ -123,7 +120,7 @@ class Reader {
     std::size_t line_ = 0;
     bool begun_ = false;
     Spectrum spectrum_{{}, {}};
-    std::vector<Problem> problems_;
+    Problems problems_;
 };
 
 } // namespace

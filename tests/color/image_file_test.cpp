@@ -9,6 +9,7 @@
 
 #include "color_test.h"
 #include "limited_disk.h"
+#include "tsuya/sdk/detail/threads.h"
 
 namespace tsuya {
 namespace {
@@ -112,6 +113,26 @@ TEST(ImageFile, TallPictureIsExact) {
         image.data[i] = static_cast<float>(i);
     write_exr(folder / "tall.exr", image);
     EXPECT_EQ(read_image(folder / "tall.exr").data, image.data);
+}
+
+std::size_t threads_of_process() {
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    return static_cast<std::size_t>(std::distance(begin(tasks), end(tasks)));
+}
+
+// OpenEXR keeps the threads of its last picture.
+TEST(ImageFile, ThreadsAreThoseOfTheCaller) {
+    const test::Folder folder;
+    const Image image = ramp(64, 64, {"Y"});
+    const auto write = [&](int threads) {
+        detail::run_with_threads(threads, [&] { write_exr(folder / "a.exr", image); });
+        return threads_of_process();
+    };
+    const std::size_t one = write(1), nine = write(9);
+    EXPECT_GE(nine, one + 8);
+    EXPECT_LE(write(1), nine - 8);
+    detail::run_with_threads(9, [&] { read_image(folder / "a.exr"); });
+    EXPECT_GE(threads_of_process(), one + 8);
 }
 
 TEST(ImageFile, SpectralRoundTripOfOddBasis) {
