@@ -20,17 +20,29 @@ function(tsuya_target_defaults target)
     endif()
 endfunction()
 
-# tsuya_add_library(<component> HEADERS <public headers> SOURCES <sources>)
+# Square roots become one instruction; no value changes.
+function(tsuya_numeric_flags target)
+    target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+endfunction()
+
+# tsuya_add_library(<component> NUMERIC HEADERS <public headers> SOURCES <sources>)
 # makes the target tsuya_<component> with the alias tsuya::<component>, installed as a package
 # component of that name. Headers are given relative to <folder>/include; sources include what is
-# theirs alone relative to <folder>/src.
+# theirs alone relative to <folder>/src. NUMERIC may be left out, see tsuya_numeric_flags.
 function(tsuya_add_library component)
+    cmake_parse_arguments(ARG "NUMERIC" "" "" ${ARGN})
     set(target tsuya_${component})
     add_library(${target} STATIC)
     add_library(tsuya::${component} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
     tsuya_target_defaults(${target})
-    tsuya_add_to_library(${component} ${ARGN})
+    if(ARG_NUMERIC)
+        tsuya_numeric_flags(${target})
+        tsuya_precompile(${target} numeric)
+    else()
+        tsuya_precompile(${target} library)
+    endif()
+    tsuya_add_to_library(${component} ${ARG_UNPARSED_ARGUMENTS})
     install(TARGETS ${target} EXPORT tsuya_${component}_targets COMPONENT ${component}
             FILE_SET HEADERS)
     set_property(GLOBAL APPEND PROPERTY TSUYA_COMPONENTS ${component})
@@ -65,4 +77,22 @@ function(tsuya_add_program name)
     add_executable(${name} ${ARGN})
     tsuya_target_defaults(${name})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+endfunction()
+
+# tsuya_add_parts(<name> <sources>...) makes a library of sources that several programs share.
+function(tsuya_add_parts name)
+    add_library(${name} STATIC ${ARGN})
+    tsuya_target_defaults(${name})
+    tsuya_program_flags(${name})
+endfunction()
+
+# The code model of a program, for what is linked into programs alone.
+function(tsuya_program_flags target)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIE)
+endfunction()
+
+# For code that parses, calls libraries and prints: it is compiled faster and runs as fast.
+function(tsuya_light_flags target)
+    target_compile_options(${target} PRIVATE -O1)
 endfunction()

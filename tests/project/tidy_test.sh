@@ -36,10 +36,15 @@ if "$tool" --quiet --config-file=.clang-tidy "$bad" -- -std=c++20 >/dev/null 2>&
     echo "clang-tidy finds no integer division"
     exit 1
 fi
+# The headers that g++ compiled before are nothing to clang.
+commands=$(mktemp -d)
+trap 'rm -rf "$bad" "$commands"' EXIT
+sed -E 's/ -Winvalid-pch -include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" \
+    >"$commands/compile_commands.json"
 files=("${central[@]}")
 if [ "${3:-}" = all ]; then
     mapfile -t files < <(find sdk color garment lab samples -name '*.cpp' | sort)
 fi
 # The compiler's flags name a warning that clang does not know.
 printf '%s\0' "${files[@]}" | xargs -0 -P "$(nproc)" -n 1 \
-    "$tool" --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option 2> >(grep -v ' generated\.$')
+    "$tool" --quiet -p "$commands" --extra-arg=-Wno-unknown-warning-option 2> >(grep -v ' generated\.$')
