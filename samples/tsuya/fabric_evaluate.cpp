@@ -45,7 +45,8 @@ struct FabricEvaluate final : Command {
     Status run(Console &console) override {
         if (!values_file.empty())
             scene::check_output_file(values_file, {".csv"});
-        const Fabric fabric = read_fabric(fabric_file);
+        const Progress progress = console.progress();
+        const Fabric fabric = read_fabric(fabric_file, progress);
         const ReflectanceTable table = read_reflectance_table(table_file);
         if (fabric.colours.dye.any_above_zero())
             console.warning(fabric_file.string() + ": the fabric has a dye, which is not compared");
@@ -58,8 +59,10 @@ struct FabricEvaluate final : Command {
         std::vector<Result> results;
         std::vector<BrdfFunction> functions;
         for (const std::string &model : models) {
-            functions.push_back(make_model(model, fabric, fabric_file.string()));
-            results.push_back({model, measure_accuracy(table, functions.back())});
+            functions.push_back(make_model(model, fabric, fabric_file.string(), progress));
+            results.push_back({model, measure_accuracy(table, functions.back(), progress)});
+            progress("models",
+                     static_cast<double>(results.size()) / static_cast<double>(models.size()));
         }
         if (!values_file.empty())
             write_values(table, models, functions);

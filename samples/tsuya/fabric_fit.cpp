@@ -50,22 +50,23 @@ struct FabricFit final : Command {
             console.warning(table_file.string() +
                             ": the symmetry is not declared, orthotropic is assumed; "
                             "declare it by a line such as `# symmetry: half-turn`");
-        const CarriedViews views{.bard = Bard::fit(table, table_file.string()), .f0 = f0};
+        const Progress progress = console.progress();
+        const CarriedViews views{.bard = Bard::fit(table, table_file.string(), progress), .f0 = f0};
         const Bard &bard = views.bard;
         Fabric fabric{.name = name.empty() ? table_file.stem().string() : name,
                       .keys = table.keys,
                       .specular = views};
         Report report{.bard = bard};
         if (use == "all") {
-            if (const auto brdf = make_brdf(fabric, "fabric"))
-                report.before = oblique(table, *brdf);
-            report.yarn =
-                fit_yarn_lobes(bard, table, f0.value_or(YarnLobes{}.f0), table_file.string());
+            if (const auto brdf = make_brdf(fabric, "fabric", progress))
+                report.before = oblique(table, *brdf, progress);
+            report.yarn = fit_yarn_lobes(bard, table, f0.value_or(YarnLobes{}.f0),
+                                         table_file.string(), progress);
             fabric.specular = *report.yarn;
             fabric.spare = {views};
         }
-        if (const Material material = resolve(fabric, "fabric"); material.specular)
-            report.after = oblique(table, *material.specular);
+        if (const Material material = resolve(fabric, "fabric", progress); material.specular)
+            report.after = oblique(table, *material.specular, progress);
         report.f0 = bard.peak() > 0 ? f0_of(views) : 1;
         scene::prepare_output_file(output, {".toml"});
         write_fabric(fabric, output);
@@ -87,7 +88,8 @@ struct FabricFit final : Command {
         Oblique before{}, after{};
     };
 
-    static Oblique oblique(const ReflectanceTable &table, const Brdf &brdf) {
+    static Oblique oblique(const ReflectanceTable &table, const Brdf &brdf,
+                           const Progress &progress) {
         const BrdfFunction f = [&](const glm::dvec3 &l, const glm::dvec3 &v) {
             return static_cast<double>(brdf.evaluate(glm::vec3(l), glm::vec3(v)));
         };
@@ -97,7 +99,7 @@ struct FabricFit final : Command {
             rows.rows.push_back(view.row);
         if (rows.rows.empty())
             return found;
-        const Accuracy accuracy = measure_accuracy(rows, f);
+        const Accuracy accuracy = measure_accuracy(rows, f, progress);
         found.lights = accuracy.directions.size();
         found.l2_cos = accuracy.mean.l2_cos.value_or(0);
         return found;

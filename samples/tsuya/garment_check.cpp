@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "json_file.h"
+#include "look_options.h"
 #include "tsuya/garment/check.h"
 #include "tsuya/garment/garment.h"
 #include "tsuya/garment/mesh_file.h"
@@ -18,11 +19,13 @@ namespace {
 struct GarmentCheck final : Command {
     std::filesystem::path mesh{};
     std::string unit = "m";
+    garment::SeamOptions seams{};
     bool json = false, strict = false;
 
     void options(Options &o) override {
         o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
         o.option("--unit", &unit, "UNIT", "length unit of the mesh: m, dm, cm, mm, in");
+        add_sewing_tolerance(o, seams.tolerance);
         o.flag("--json", &json, "print the report as JSON");
         o.flag("--strict", &strict, "exit status 4 where there is a warning");
         o.example("tsuya garment check dress.obj --strict");
@@ -34,7 +37,7 @@ struct GarmentCheck final : Command {
         garment::PolygonMesh read = garment::read_mesh(mesh, console.progress()).mesh;
         for (glm::dvec3 &p : read.position)
             p *= metres;
-        const garment::Report report = garment::check(std::move(read), {}, console.progress());
+        const garment::Report report = garment::check(std::move(read), seams, console.progress());
         if (json)
             std::cout << json_of(report).text() << "\n";
         else

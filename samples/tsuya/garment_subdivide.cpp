@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "grain_option.h"
+#include "look_options.h"
 #include "tsuya/garment/garment.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/garment/ply.h"
@@ -20,6 +21,7 @@ struct GarmentSubdivide final : Command {
     std::optional<double> tolerance{};
     double seam_crease = 0, fold_crease = 0, fold_angle_deg = 60;
     double max_degenerate_area = garment::FrameOptions{}.max_degenerate_area;
+    garment::SeamOptions seams{};
     bool strict = false;
 
     void options(Options &o) override {
@@ -46,6 +48,7 @@ struct GarmentSubdivide final : Command {
         o.option("--max-degenerate-area", &max_degenerate_area, "SHARE",
                  "share of the area without a usable UV above which it is an error")
             .range(0, 1);
+        add_sewing_tolerance(o, seams.tolerance);
         o.flag("--strict", &strict, "refuse a mesh with a warning");
         o.option("--grain", &grain, "DIRECTION",
                  "warp direction of a mesh without UV: vertical, horizontal, or degrees from the "
@@ -56,6 +59,7 @@ struct GarmentSubdivide final : Command {
     Status run(Console &console) override {
         scene::check_output_file(output, {".obj", ".ply"});
         const garment::Options settings{.metres_per_unit = garment::metres_per(unit),
+                                        .seams = seams,
                                         .subdivide = {.level = level,
                                                       .tolerance = tolerance,
                                                       .seam_crease = seam_crease,

@@ -21,6 +21,13 @@ DisplayOptions LookOptions::look() const {
     return {.adapt = parse_adaptation(adapt), .view = view, .exposure_stops = exposure_stops};
 }
 
+void add_sewing_tolerance(Options &options, double &metres) {
+    options
+        .option("--sewing-tolerance", &metres, "METRES",
+                "largest gap over which the edges of panels are joined")
+        .range(0, 1);
+}
+
 void add_threads(Options &options, int &threads) {
     options.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
         .range(0, 4096);

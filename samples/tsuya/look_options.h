@@ -20,6 +20,9 @@ struct LookOptions {
     double exposure_stops = 0;
 };
 
+/// `--sewing-tolerance`, see garment::SeamOptions; shows the default that `metres` has.
+void add_sewing_tolerance(Options &options, double &metres);
+
 /// `--threads`, 0 for all processors
 void add_threads(Options &options, int &threads);
 

@@ -9,6 +9,7 @@
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/scene_file.h"
+#include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::program {
@@ -69,6 +70,12 @@ struct Render final : Command {
     }
 
     Status run(Console &console) override {
+        Status status = kDone;
+        detail::run_with_threads(threads.value_or(0), [&] { status = render_scene(console); });
+        return status;
+    }
+
+    Status render_scene(Console &console) {
         if (!explains)
             check_output();
         scene::SceneFile file = scene::read_scene_file(scene, console.progress());

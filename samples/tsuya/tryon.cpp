@@ -8,6 +8,7 @@
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/tryon.h"
+#include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::program {
@@ -55,6 +56,7 @@ struct TryOn final : Command {
                  "the same distance as it is seen in the picture")
             .range(1e-3, 1e3)
             .excludes(level);
+        add_sewing_tolerance(o, job.seams.tolerance);
         o.option("--grain", &grain, "DIRECTION",
                  "warp direction of a garment without UV: vertical, horizontal, or degrees from "
                  "the vertical");
@@ -114,15 +116,16 @@ struct TryOn final : Command {
         job.render.stop.relative_error = error;
         if (samples)
             job.render.stop = {.samples_per_pixel = *samples};
-        return report(scene::run(job, console.progress()), console);
+        scene::TryOnResult result;
+        detail::run_with_threads(job.render.threads,
+                                 [&] { result = scene::run(job, console.progress()); });
+        return report(result, console);
     }
 
     Status report(const scene::TryOnResult &result, Console &console) const {
         console.warnings(result.report, job.garment.string());
-        for (const RenderStats &stats : result.stats)
-            if (stats.not_finite > 0)
-                console.warning(std::to_string(stats.not_finite) +
-                                " samples were not finite and are left out");
+        for (const Problem &warning : result.warnings)
+            console.warning(warning);
         for (const std::filesystem::path &file : result.files)
             std::cout << file.string() << "\n";
         if (!result.interrupted)

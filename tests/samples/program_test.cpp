@@ -13,9 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "limited_disk.h"
-#include "samples/process.h"
-#include "samples/scratch.h"
-#include "tsuya/color/image_file.h"
+#include "samples/program_run.h"
 #include "tsuya/scene/data_folder.h"
 
 namespace tsuya::program {
@@ -24,36 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using scene::Scratch;
-
-Outcome run(const Scratch &scratch, std::vector<std::string> arguments) {
-    return run_program(arguments, scratch.folder());
-}
-
-std::vector<std::string> lines_of(const std::string &text) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);)
-        lines.push_back(line);
-    return lines;
-}
-
-/// Mean over the picture, and that of its darkest channel value.
-void expect_picture(const fs::path &file, int width, int height) {
-    const Image image = read_image(file);
-    EXPECT_EQ(image.width, width) << file;
-    EXPECT_EQ(image.height, height) << file;
-    const double mean = std::accumulate(image.data.begin(), image.data.end(), 0.0) /
-                        static_cast<double>(image.data.size());
-    const auto [least, most] = std::minmax_element(image.data.begin(), image.data.end());
-    EXPECT_GT(mean, 0.05) << file;
-    EXPECT_GT(*most - *least, 0.1f) << file;
-}
-
-/// The small scene of a piece of cloth; returns its path.
-std::string write_scene(const Scratch &scratch, const std::string &more = "") {
-    scratch.write("cloth.obj", scene::cloth_obj());
-    return scratch.write("small.scene.toml", scene::small_scene(more)).string();
-}
 
 TEST(Program, TellsItsVersionAndCommands) {
     const Scratch scratch;
@@ -201,98 +169,6 @@ TEST(Program, LeavesNothingBehindWhereATryOnCannotBe) {
     EXPECT_EQ(read_file(out), "mine");
 }
 
-TEST(Program, RendersAScene) {
-    const Scratch scratch;
-    const std::string scene_file = write_scene(scratch, "[output]\nlamps = [\"A\"]\n");
-    const fs::path exr = scratch / "new/a.exr", stats = scratch / "new/stats.json";
-    const Outcome explained = run(scratch, {"render", scene_file, "--explain"});
-    EXPECT_EQ(explained.status, 0) << explained.err;
-    EXPECT_NE(explained.out.find("bounces"), std::string::npos);
-    EXPECT_FALSE(fs::exists(scratch / "new"));
-
-    const Outcome done =
-        run(scratch, {"render", scene_file, "-o", exr.string(), "--stats", stats.string(), "--spp",
-                      "6", "--channels", "8", "--aov", "depth,normal", "--progress", "json"});
-    ASSERT_EQ(done.status, 0) << done.err;
-    EXPECT_EQ(done.out, exr.string() + "\n" + (scratch / "new/a-A.png").string() + "\n");
-    for (const std::string &line : lines_of(done.err)) {
-        const json progress = json::parse(line);
-        EXPECT_EQ(progress.at("schema"), "tsuya-progress 1");
-        EXPECT_LE(progress.at("fraction"), 1.0);
-    }
-    EXPECT_GT(lines_of(done.err).size(), 2u);
-    expect_picture(scratch / "new/a-A.png", 16, 20);
-    const SpectralImage image = read_spectral_exr(exr);
-    EXPECT_EQ(image.basis.count, 8);
-    EXPECT_EQ(image.aov_names, (std::vector<std::string>{"depth", "normal"}));
-    const json numbers = json::parse(read_file(stats));
-    EXPECT_EQ(numbers.at("schema"), "tsuya-render-stats 1");
-    EXPECT_EQ(numbers.at("samples_per_pixel"), 6);
-    EXPECT_EQ(numbers.at("interrupted"), false);
-    EXPECT_FALSE(fs::exists(exr.string() + ".checkpoint"));
-}
-
-TEST(Program, PlacesWhatIsWrongInAScene) {
-    const Scratch scratch;
-    const std::string scene_file = write_scene(scratch, "sample = 3\n");
-    const Outcome wrong =
-        run(scratch, {"render", scene_file, "-o", (scratch / "n/a.exr").string()});
-    EXPECT_EQ(wrong.status, 1);
-    EXPECT_EQ(wrong.err.rfind("tsuya: " + scene_file + ":17:1: unknown key 'sample'", 0), 0u)
-        << wrong.err;
-    EXPECT_FALSE(fs::exists(scratch / "n"));
-}
-
-TEST(Program, RefusesPlacesBeforeItRenders) {
-    const Scratch scratch;
-    const std::string scene_file = write_scene(scratch);
-    fs::create_directories(scratch / "folder.exr");
-    const std::size_t before = scratch.file_count();
-    for (const char *name : {"folder.exr", "cloth.obj/a.exr", "a.png"}) {
-        const Outcome wrong = run(scratch, {"render", scene_file, "-o", (scratch / name).string()});
-        EXPECT_EQ(wrong.status, 1) << name;
-        EXPECT_NE(wrong.err.find(scratch.folder().string()), std::string::npos) << wrong.err;
-    }
-    const Outcome outside = run(
-        scratch, {"render", scene_file, "-o", (scratch / "a.exr").string(), "--crop", "0,0,17,20"});
-    EXPECT_EQ(outside.status, 1);
-    EXPECT_NE(outside.err.find("16 x 20"), std::string::npos) << outside.err;
-    EXPECT_EQ(scratch.file_count(), before);
-}
-
-TEST(Program, ResumesAnInterruptedRenderBitIdentically) {
-    const Scratch scratch;
-    const std::string scene_file = write_scene(scratch);
-    const std::string whole = (scratch / "whole.exr").string(),
-                      parts = (scratch / "parts.exr").string();
-    const auto call = [&](const std::string &out) {
-        return std::vector<std::string>{"render", scene_file, "-o",         out,
-                                        "--spp",  "16384",    "--progress", "json"};
-    };
-    SpectralImage partial;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) { // each goes on from the one before
-        std::vector<std::string> next = call(parts);
-        if (signal != SIGINT)
-            next.push_back("--resume");
-        const Outcome interrupted = run_program(next, scratch.folder(), once(signal, "\"render\""));
-        ASSERT_EQ(interrupted.status, 3) << interrupted.err;
-        EXPECT_NE(interrupted.err.find("--resume"), std::string::npos);
-        EXPECT_EQ(interrupted.out, parts + "\n");
-        ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
-        partial = read_spectral_exr(parts);
-    }
-
-    std::vector<std::string> resume = call(parts);
-    resume.push_back("--resume");
-    const Outcome resumed = run(scratch, resume);
-    ASSERT_EQ(resumed.status, 0) << resumed.err;
-    EXPECT_FALSE(fs::exists(parts + ".checkpoint"));
-    ASSERT_EQ(run(scratch, call(whole)).status, 0);
-    const SpectralImage expected = read_spectral_exr(whole);
-    EXPECT_EQ(read_spectral_exr(parts).transport, expected.transport);
-    EXPECT_NE(partial.transport, expected.transport); // or nothing was interrupted
-}
-
 // A table that never comes: the command waits for it when the signal arrives.
 TEST(Program, LeavesAtOnceWhereNothingIsToBeSaved) {
     const Scratch scratch;
@@ -334,72 +210,6 @@ TEST(Program, StopsTheCheckOfALargeMesh) {
                                         scratch.folder(), once(SIGTERM, "\"garment: read\""));
     EXPECT_EQ(stopped.status, 3) << stopped.err;
     EXPECT_EQ(stopped.out, "");
-}
-
-TEST(Program, ResumesAKilledRenderBitIdentically) {
-    const Scratch scratch;
-    const std::string scene_file = write_scene(scratch);
-    const fs::path exr = scratch / "a.exr", checkpoint = exr.string() + ".checkpoint";
-    std::vector<std::string> call{"render", scene_file, "-o", exr.string(), "--spp", "8192"};
-    call.insert(call.end(), {"--checkpoint-every", "0.1"});
-    const Outcome killed = run_program(call, scratch.folder(), [&](const std::string &) {
-        return fs::exists(checkpoint) ? SIGKILL : 0;
-    });
-    ASSERT_EQ(killed.status, -1) << killed.err;
-    EXPECT_FALSE(fs::exists(exr));
-
-    call.push_back("--resume");
-    const Outcome resumed = run(scratch, call);
-    ASSERT_EQ(resumed.status, 0) << resumed.err;
-    EXPECT_EQ(resumed.err, "");
-    EXPECT_FALSE(fs::exists(checkpoint));
-    const SpectralImage in_parts = read_spectral_exr(exr);
-    const std::string whole = (scratch / "whole.exr").string();
-    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", whole, "--spp", "8192"}).status, 0);
-    EXPECT_EQ(in_parts.transport, read_spectral_exr(whole).transport);
-}
-
-TEST(Program, WritesThePictureSoFarAtSIGUSR1AndGoesOn) {
-    const Scratch scratch;
-    const std::string scene_file = write_scene(scratch), exr = (scratch / "a.exr").string();
-    SpectralImage so_far;
-    const auto ask = once(SIGUSR1, "\"render\"");
-    const Outcome done =
-        run_program({"render", scene_file, "-o", exr, "--spp", "16384", "--progress", "json"},
-                    scratch.folder(), [&](const std::string &err) {
-                        if (so_far.transport.empty() && fs::exists(exr))
-                            so_far = read_spectral_exr(exr);
-                        return ask(err);
-                    });
-    ASSERT_EQ(done.status, 0) << done.err;
-    const std::string whole = (scratch / "whole.exr").string();
-    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", whole, "--spp", "16384"}).status, 0);
-    const SpectralImage expected = read_spectral_exr(whole);
-    EXPECT_EQ(read_spectral_exr(exr).transport, expected.transport);
-    ASSERT_EQ(so_far.transport.size(), expected.transport.size());
-    EXPECT_NE(so_far.transport, expected.transport); // or it was the picture at the end
-}
-
-// A picture that cannot be written costs nothing: its checkpoint stays.
-TEST(Program, KeepsTheCheckpointOfAPictureThatCannotBeWritten) {
-    const Scratch scratch;
-    const std::string scene_file = write_scene(scratch);
-    const std::string exr = (scratch / "a.exr").string(), checkpoint = exr + ".checkpoint";
-    std::vector<std::string> call{"render", scene_file, "-o", exr, "--spp", "16384"};
-    call.insert(call.end(), {"--progress", "json"});
-    const Outcome interrupted = run_program(call, scratch.folder(), once(SIGINT, "\"render\""));
-    ASSERT_EQ(interrupted.status, 3) << interrupted.err;
-    call.back() = "off"; // stderr is a file here
-    call.push_back("--resume");
-    {
-        const test::FileSizeLimit limit(2000);
-        const Outcome failed = run(scratch, call);
-        EXPECT_EQ(failed.status, 1);
-        EXPECT_NE(failed.err.find("of this size"), std::string::npos) << failed.err;
-    }
-    ASSERT_TRUE(fs::exists(checkpoint));
-    EXPECT_EQ(run(scratch, call).status, 0);
-    EXPECT_FALSE(fs::exists(checkpoint));
 }
 
 TEST(Program, RelightsAndCompares) {
@@ -448,6 +258,27 @@ TEST(Program, ChecksGarments) {
     ASSERT_EQ(divided.status, 0) << divided.err;
     const json report_fine = json::parse(run(scratch, {"garment", "check", fine, "--json"}).out);
     EXPECT_EQ(report_fine.at("faces"), 32);
+}
+
+// Two squares 1 mm apart along an edge: apart by the usual tolerance, joined by a larger one.
+TEST(Program, SewsOverTheGapThatIsAskedFor) {
+    const Scratch scratch;
+    const std::string mesh =
+        scratch
+            .write("gap.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                              "v 1.001 0 0\nv 2 0 0\nv 2 1 0\nv 1.001 1 0\n"
+                              "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                              "vt 2 0\nvt 3 0\nvt 3 1\nvt 2 1\n"
+                              "g a\nf 1/1 2/2 3/3 4/4\ng b\nf 5/5 6/6 7/7 8/8\n")
+            .string();
+    const auto parts = [&](const std::vector<std::string> &more) {
+        std::vector<std::string> call{"garment", "check", mesh, "--json"};
+        call.insert(call.end(), more.begin(), more.end());
+        return json::parse(run(scratch, call).out).at("parts").get<int>();
+    };
+    EXPECT_EQ(parts({"--sewing-tolerance", "1e-4"}), 2);
+    EXPECT_EQ(parts({"--sewing-tolerance", "2e-3"}), 1);
+    EXPECT_EQ(run(scratch, {"garment", "check", mesh, "--sewing-tolerance", "-1"}).status, 2);
 }
 
 TEST(Program, FitsFabrics) {

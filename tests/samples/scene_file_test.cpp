@@ -145,7 +145,8 @@ TEST(SceneFile, ReadsEveryKey) {
         "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\ntransmittance = 0.2\nweft_tint = \"#ff0000\"\n"
         "warp_tint = \"flat.csv\"\nspecular_tint = 0.9\n[fabrics.b]\nreflectance = 0.25\n"
         "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nlevel = 3\n"
-        "tolerance_px = 0.5\nstrict = true\nmax_degenerate_area = 0.5\nseam_crease = 3\n"
+        "tolerance_px = 0.5\nsewing_tolerance_mm = 0.25\nstrict = true\nmax_degenerate_area = "
+        "0.5\nseam_crease = 3\n"
         "fold_crease = 4\nfold_angle_deg = 30\ntranslate = [1, 2, 3]\nvisible = "
         "false\nmetres_per_uv = "
         "2\ndefault_grain_deg = 90\n"
@@ -177,6 +178,7 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(garment.options.subdivide.level, 3);
     EXPECT_EQ(garment.tolerance_px, 0.5);
     EXPECT_TRUE(garment.options.strict);
+    EXPECT_EQ(garment.options.seams.tolerance, 0.25e-3);
     EXPECT_EQ(garment.options.frames.max_degenerate_area, 0.5);
     EXPECT_EQ(garment.options.subdivide.seam_crease, 3);
     EXPECT_EQ(garment.options.subdivide.fold_crease, 4);
@@ -289,6 +291,29 @@ TEST(SceneFile, ReportsAllProblemsAtOnce) {
     EXPECT_EQ(
         problems_of(scratch, small_scene("seed = -1\nchannels = 3\nmax_bounces = -1\n")).size(),
         3u);
+}
+
+// Where nothing looks at f0, one that is given would be lost without a word.
+TEST(SceneFile, F0IsRefusedWhereNothingLooksAtIt) {
+    const Scratch scratch;
+    const auto build = [&](const std::string &fabric) {
+        return build_scene(read(scratch, small_scene("[fabrics.other]\nf0 = 0.125\n" + fabric)));
+    };
+    const std::string start = "schema = \"tsuya-fabric 1\"\nname = \"f\"\n";
+    scratch.write("ggx.fabric.toml",
+                  start + "model = \"ggx\"\n[ggx]\nalpha_weft = 0.2\nalpha_warp = 0.2\n");
+    for (const std::string fabric : {"", "file = \"ggx.fabric.toml\"\n"})
+        try {
+            build(fabric);
+            ADD_FAILURE() << fabric;
+        } catch (const Error &error) {
+            const Problem &p = error.problems()[0];
+            EXPECT_EQ(p.where, (scratch / "a.scene.toml").string() + ": fabrics.other.f0");
+            EXPECT_NE(p.accepted.find("takeda"), std::string::npos) << p.accepted;
+        }
+    const auto satin = data_folder() / "fabrics" / "black_satin.fabric.toml";
+    const BuiltScene built = build("file = \"" + satin.string() + "\"\n");
+    EXPECT_EQ(std::get<CarriedViews>(built.scene.fabrics.back().specular).f0, 0.125);
 }
 
 // A body has no yarn directions: a fabric that reflects otherwise when it is turned is refused on

@@ -107,7 +107,7 @@ void find_seams(const Report &r, Findings &f) {
             "edges shorter than the tolerance hold a gap open", "their ends made one vertex");
     f.count(r.seams.unresolved, Severity::warning, "unresolved_seams",
             "boundary vertices lie near another boundary and could not be joined",
-            "look at the seam, or state another tolerance");
+            "look at the seam, or state another tolerance of sewing");
     double length = 0.0;
     for (const BoundaryLoop &loop : r.openings)
         length += loop.length;

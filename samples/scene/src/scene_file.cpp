@@ -13,7 +13,22 @@ void add_object(Scene &scene, const std::string &name, Surface surface, std::siz
     scene.objects.push_back({name, {index}, {static_cast<std::uint32_t>(fabric)}});
 }
 
-Fabric load_fabric(const FabricEntry &entry) {
+// Only models that carry views ask for f0; `ggx` and `lambert` do without.
+bool looks_at_f0(const CarriedViews &views) {
+    return views.model != ViewModel::ggx && views.model != ViewModel::lambert;
+}
+
+void set_f0(Fabric &fabric, double f0, const std::string &scene_file) {
+    CarriedViews *const views = std::get_if<CarriedViews>(&fabric.specular);
+    if (!views || !looks_at_f0(*views))
+        throw Error({"f0 has no meaning for this fabric: its specular part does not look at it",
+                     scene_file + ": fabrics." + fabric.name + ".f0",
+                     "expected a fabric with [views] and a model that carries them: yarn, takeda, "
+                     "takeda_printed or half_vector"});
+    views->f0 = f0;
+}
+
+Fabric load_fabric(const FabricEntry &entry, const std::string &scene_file) {
     Fabric fabric;
     if (entry.file.empty())
         fabric.colours.dye = Spectrum::constant(kPlainReflectance);
@@ -22,8 +37,8 @@ Fabric load_fabric(const FabricEntry &entry) {
     fabric.name = entry.name;
     if (entry.dye)
         fabric.colours.dye = *entry.dye;
-    if (CarriedViews *const views = find_specular<CarriedViews>(fabric); views && entry.f0)
-        views->f0 = entry.f0;
+    if (entry.f0)
+        set_f0(fabric, *entry.f0, scene_file);
     if (entry.transmittance)
         fabric.colours.transmittance = *entry.transmittance;
     if (entry.specular_tint)
@@ -50,7 +65,7 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
     BuiltScene built;
     Scene &scene = built.scene;
     for (const FabricEntry &entry : file.fabrics)
-        scene.fabrics.push_back(load_fabric(entry));
+        scene.fabrics.push_back(load_fabric(entry, file.path.string()));
     SceneMeshes meshes(progress);
     for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
         for (const MeshEntry &entry : *entries) {

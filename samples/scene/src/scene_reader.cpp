@@ -172,6 +172,8 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         garment::SubdivideOptions &subdivide = entry.options.subdivide;
         subdivide.fold_crease = section.number("fold_crease", 0, 9).value_or(0);
         subdivide.fold_angle = section.number("fold_angle_deg", 0, 180).value_or(60) * kDegree;
+        if (const auto sewing_mm = section.number("sewing_tolerance_mm", 0, 1000))
+            entry.options.seams.tolerance = 1e-3 * *sewing_mm;
         entry.options.strict = section.flag("strict").value_or(false);
         entry.tolerance_px = section.number("tolerance_px", 1e-3, 1e3);
         entry.translate = section.vector("translate").value_or(glm::dvec3(0));

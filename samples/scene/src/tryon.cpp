@@ -166,6 +166,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     Scene &scene = stage.shown.scene;
     Fabric fabric = read_fabric(job.fabric, progress);
     garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
+                             .seams = job.seams,
                              .subdivide = {.level = job.level, .tolerance = job.tolerance},
                              .frames = {.invented_grain = job.invented_grain,
                                         .max_degenerate_area = job.max_degenerate_area}};
@@ -197,6 +198,15 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     stage.shown.report = stage.meshes.report(0);
     check_scene(scene);
     return stage;
+}
+
+// Those of the fabrics are the same in every render.
+void add_warnings(const RenderResult &rendered, TryOnResult &result) {
+    for (const Problem &warning : rendered.warnings)
+        if (std::none_of(result.warnings.begin(), result.warnings.end(), [&](const Problem &known) {
+                return known.what == warning.what && known.where == warning.where;
+            }))
+            result.warnings.push_back(warning);
 }
 
 } // namespace
@@ -247,6 +257,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
         const RenderResult rendered = render_try_on(scene, job.render, part);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;
+        add_warnings(rendered, result);
         write_pictures(rendered.image, dye.name, show ? number_of(frame) : "", lamps, job, sheet,
                        result);
     }

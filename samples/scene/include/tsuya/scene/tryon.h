@@ -13,6 +13,7 @@
 
 #include "tsuya/color/config.h"
 #include "tsuya/garment/report.h"
+#include "tsuya/garment/seams.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/render.h"
@@ -36,6 +37,7 @@ struct TryOn {
     std::optional<double> tolerance{};      ///< metres; in place of `level`, see SubdivideOptions
     std::optional<double> tolerance_px{};   ///< pixels; in place of `level`, see ViewTolerance
     std::optional<double> invented_grain{}; ///< of a garment without UV, see FrameOptions
+    garment::SeamOptions seams{};           ///< of garment and body
     double max_degenerate_area = 0.05;      ///< of the garment, see FrameOptions
     bool strict = false;                    ///< a warning about the garment is an Error
     std::string unit = "m";                 ///< of garment and body, see garment::metres_per
@@ -77,6 +79,7 @@ RenderResult render_try_on(const Scene &scene, RenderSettings settings,
 struct TryOnResult {
     std::vector<std::filesystem::path> files{}; ///< in the order of their making
     std::vector<RenderStats> stats{};           ///< one a render
+    std::vector<Problem> warnings{};            ///< of the renders, each once
     garment::Report report{};
     bool interrupted = false;
 };

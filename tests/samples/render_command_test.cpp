@@ -1,0 +1,185 @@
+// tsuya render, from end to end: pictures, checkpoints, signals.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "limited_disk.h"
+#include "samples/program_run.h"
+#include "tsuya/scene/data_folder.h"
+
+namespace tsuya::program {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using scene::Scratch;
+
+TEST(RenderCommand, RendersAScene) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch, "[output]\nlamps = [\"A\"]\n");
+    const fs::path exr = scratch / "new/a.exr", stats = scratch / "new/stats.json";
+    const Outcome explained = run(scratch, {"render", scene_file, "--explain"});
+    EXPECT_EQ(explained.status, 0) << explained.err;
+    EXPECT_NE(explained.out.find("bounces"), std::string::npos);
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+
+    const Outcome done =
+        run(scratch, {"render", scene_file, "-o", exr.string(), "--stats", stats.string(), "--spp",
+                      "6", "--channels", "8", "--aov", "depth,normal", "--progress", "json"});
+    ASSERT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.out, exr.string() + "\n" + (scratch / "new/a-A.png").string() + "\n");
+    for (const std::string &line : lines_of(done.err)) {
+        const json progress = json::parse(line);
+        EXPECT_EQ(progress.at("schema"), "tsuya-progress 1");
+        EXPECT_LE(progress.at("fraction"), 1.0);
+    }
+    EXPECT_GT(lines_of(done.err).size(), 2u);
+    expect_picture(scratch / "new/a-A.png", 16, 20);
+    const SpectralImage image = read_spectral_exr(exr);
+    EXPECT_EQ(image.basis.count, 8);
+    EXPECT_EQ(image.aov_names, (std::vector<std::string>{"depth", "normal"}));
+    const json numbers = json::parse(read_file(stats));
+    EXPECT_EQ(numbers.at("schema"), "tsuya-render-stats 1");
+    EXPECT_EQ(numbers.at("samples_per_pixel"), 6);
+    EXPECT_EQ(numbers.at("interrupted"), false);
+    EXPECT_FALSE(fs::exists(exr.string() + ".checkpoint"));
+}
+
+TEST(RenderCommand, PlacesWhatIsWrongInAScene) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch, "sample = 3\n");
+    const Outcome wrong =
+        run(scratch, {"render", scene_file, "-o", (scratch / "n/a.exr").string()});
+    EXPECT_EQ(wrong.status, 1);
+    EXPECT_EQ(wrong.err.rfind("tsuya: " + scene_file + ":17:1: unknown key 'sample'", 0), 0u)
+        << wrong.err;
+    EXPECT_FALSE(fs::exists(scratch / "n"));
+}
+
+TEST(RenderCommand, RefusesPlacesBeforeItRenders) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    fs::create_directories(scratch / "folder.exr");
+    const std::size_t before = scratch.file_count();
+    for (const char *name : {"folder.exr", "cloth.obj/a.exr", "a.png"}) {
+        const Outcome wrong = run(scratch, {"render", scene_file, "-o", (scratch / name).string()});
+        EXPECT_EQ(wrong.status, 1) << name;
+        EXPECT_NE(wrong.err.find(scratch.folder().string()), std::string::npos) << wrong.err;
+    }
+    const Outcome outside = run(
+        scratch, {"render", scene_file, "-o", (scratch / "a.exr").string(), "--crop", "0,0,17,20"});
+    EXPECT_EQ(outside.status, 1);
+    EXPECT_NE(outside.err.find("16 x 20"), std::string::npos) << outside.err;
+    EXPECT_EQ(scratch.file_count(), before);
+}
+
+TEST(RenderCommand, ResumesAnInterruptedRenderBitIdentically) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const std::string whole = (scratch / "whole.exr").string(),
+                      parts = (scratch / "parts.exr").string();
+    const auto call = [&](const std::string &out) {
+        return std::vector<std::string>{"render", scene_file, "-o",         out,
+                                        "--spp",  "16384",    "--progress", "json"};
+    };
+    SpectralImage partial;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) { // each goes on from the one before
+        std::vector<std::string> next = call(parts);
+        if (signal != SIGINT)
+            next.push_back("--resume");
+        const Outcome interrupted = run_program(next, scratch.folder(), once(signal, "\"render\""));
+        ASSERT_EQ(interrupted.status, 3) << interrupted.err;
+        EXPECT_NE(interrupted.err.find("--resume"), std::string::npos);
+        EXPECT_EQ(interrupted.out, parts + "\n");
+        ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
+        partial = read_spectral_exr(parts);
+    }
+
+    std::vector<std::string> resume = call(parts);
+    resume.push_back("--resume");
+    const Outcome resumed = run(scratch, resume);
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_FALSE(fs::exists(parts + ".checkpoint"));
+    ASSERT_EQ(run(scratch, call(whole)).status, 0);
+    const SpectralImage expected = read_spectral_exr(whole);
+    EXPECT_EQ(read_spectral_exr(parts).transport, expected.transport);
+    EXPECT_NE(partial.transport, expected.transport); // or nothing was interrupted
+}
+
+TEST(RenderCommand, ResumesAKilledRenderBitIdentically) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const fs::path exr = scratch / "a.exr", checkpoint = exr.string() + ".checkpoint";
+    std::vector<std::string> call{"render", scene_file, "-o", exr.string(), "--spp", "8192"};
+    call.insert(call.end(), {"--checkpoint-every", "0.1"});
+    const Outcome killed = run_program(call, scratch.folder(), [&](const std::string &) {
+        return fs::exists(checkpoint) ? SIGKILL : 0;
+    });
+    ASSERT_EQ(killed.status, -1) << killed.err;
+    EXPECT_FALSE(fs::exists(exr));
+
+    call.push_back("--resume");
+    const Outcome resumed = run(scratch, call);
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_EQ(resumed.err, "");
+    EXPECT_FALSE(fs::exists(checkpoint));
+    const SpectralImage in_parts = read_spectral_exr(exr);
+    const std::string whole = (scratch / "whole.exr").string();
+    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", whole, "--spp", "8192"}).status, 0);
+    EXPECT_EQ(in_parts.transport, read_spectral_exr(whole).transport);
+}
+
+TEST(RenderCommand, WritesThePictureSoFarAtSIGUSR1AndGoesOn) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch), exr = (scratch / "a.exr").string();
+    SpectralImage so_far;
+    const auto ask = once(SIGUSR1, "\"render\"");
+    const Outcome done =
+        run_program({"render", scene_file, "-o", exr, "--spp", "16384", "--progress", "json"},
+                    scratch.folder(), [&](const std::string &err) {
+                        if (so_far.transport.empty() && fs::exists(exr))
+                            so_far = read_spectral_exr(exr);
+                        return ask(err);
+                    });
+    ASSERT_EQ(done.status, 0) << done.err;
+    const std::string whole = (scratch / "whole.exr").string();
+    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", whole, "--spp", "16384"}).status, 0);
+    const SpectralImage expected = read_spectral_exr(whole);
+    EXPECT_EQ(read_spectral_exr(exr).transport, expected.transport);
+    ASSERT_EQ(so_far.transport.size(), expected.transport.size());
+    EXPECT_NE(so_far.transport, expected.transport); // or it was the picture at the end
+}
+
+// A picture that cannot be written costs nothing: its checkpoint stays.
+TEST(RenderCommand, KeepsTheCheckpointOfAPictureThatCannotBeWritten) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const std::string exr = (scratch / "a.exr").string(), checkpoint = exr + ".checkpoint";
+    std::vector<std::string> call{"render", scene_file, "-o", exr, "--spp", "16384"};
+    call.insert(call.end(), {"--progress", "json"});
+    const Outcome interrupted = run_program(call, scratch.folder(), once(SIGINT, "\"render\""));
+    ASSERT_EQ(interrupted.status, 3) << interrupted.err;
+    call.back() = "off"; // stderr is a file here
+    call.push_back("--resume");
+    {
+        const test::FileSizeLimit limit(2000);
+        const Outcome failed = run(scratch, call);
+        EXPECT_EQ(failed.status, 1);
+        EXPECT_NE(failed.err.find("of this size"), std::string::npos) << failed.err;
+    }
+    ASSERT_TRUE(fs::exists(checkpoint));
+    EXPECT_EQ(run(scratch, call).status, 0);
+    EXPECT_FALSE(fs::exists(checkpoint));
+}
+
+} // namespace
+} // namespace tsuya::program
