@@ -37,6 +37,9 @@ Fabric satin() {
 TEST_F(FabricFile, IsReadBackAsWritten) {
     Fabric fabric = satin();
     fabric.colours.weft_tint = {{450, 650}, {0.9, 0.2}};
+    fabric.colours.warp_dye = {{450, 650}, {0.1, 0.2}};
+    fabric.colours.lustre = Lustre::semi_dull;
+    fabric.colours.delustre = 0.35;
     write_fabric(fabric, file("satin.fabric.toml"));
     const Fabric back = read_fabric(file("satin.fabric.toml"));
     EXPECT_EQ(back.name, fabric.name);
@@ -166,6 +169,18 @@ TEST_F(FabricFile, BadOnesAreRefusedWithLineAndColumn) {
         EXPECT_EQ(problems[0].where, bad.where) << bad.text << problems[0].what;
         EXPECT_NE(problems[0].what.find(bad.what), std::string::npos) << problems[0].what;
     }
+}
+
+TEST_F(FabricFile, AWrongLustreHasASuggestion) {
+    const auto problems = [&](const std::string &line) {
+        return problems_of(
+            [](const auto &name) { read_fabric(name); },
+            file("f.fabric.toml", "schema = \"tsuya-fabric 1\"\nname = \"f\"\n" + line));
+    };
+    EXPECT_EQ(problems("lustre = \"semidull\"\n").at(0).where, ":3:10");
+    EXPECT_NE(problems("lustre = \"semidull\"\n").at(0).accepted.find("semi-dull"),
+              std::string::npos);
+    EXPECT_EQ(problems("delustre = 1.5\n").at(0).where, ":3:12");
 }
 
 TEST_F(FabricFile, UnknownKeysAreRefusedWithTheNearestKnown) {

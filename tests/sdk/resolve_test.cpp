@@ -43,6 +43,16 @@ TEST(Resolve, RefusesWhatIsOutOfRange) {
     find_specular<CarriedViews>(shot)->model =
         ViewModel::takeda; // does not tell weft and warp apart
     expect_refused(shot, "fabrics.satin.weft_tint");
+    shot.colours.weft_tint.reset();
+    shot.colours.warp_dye = Spectrum::constant(0.1);
+    expect_refused(shot, "fabrics.satin.warp_dye");
+    shot.colours.warp_dye.reset();
+    shot.colours.delustre = 0.5;
+    expect_refused(shot, "fabrics.satin.delustre");
+    shot.colours.delustre = 1;
+    resolve(shot, "fabrics.satin");
+    shot.colours.delustre = -0.1;
+    expect_refused(shot, "fabrics.satin.delustre");
 }
 
 TEST(Resolve, TakesTheNormalReflectanceForF0) {
@@ -75,6 +85,8 @@ TEST(NeedsFrames, FollowsTheSpecularPart) {
         EXPECT_TRUE(needs(CarriedViews{.bard = bard, .model = model}));
     Fabric colourless = satin();
     colourless.colours.specular_tint = Spectrum::constant(0);
+    EXPECT_TRUE(needs_frames(colourless)); // its coloured part follows the yarns
+    colourless.colours.delustre = 1;
     EXPECT_FALSE(needs_frames(colourless));
 }
 

@@ -50,6 +50,10 @@ Channels<K> coloured(const Response &response, const Colours &colours, float sca
         result.v[k] = (colours.dye[k] * response.diffuse + colours.warp[k] * response.warp) * scale;
     if (response.weft > 0)
         result.add(colours.weft, response.weft * scale);
+    if (response.warp_body > 0)
+        result.add(colours.warp_body, response.warp_body * scale);
+    if (response.weft_body > 0)
+        result.add(colours.weft_body, response.weft_body * scale);
     if (response.transmitted > 0)
         result.add(colours.transmittance, response.transmitted * scale);
     return result;

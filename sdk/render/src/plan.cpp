@@ -20,7 +20,7 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
             continue;
         const bool specular = has_specular(fabric);
         const bool transmits = fabric.colours.transmittance.any_above_zero();
-        const bool diffuse = fabric.colours.dye.any_above_zero() || transmits;
+        const bool diffuse = fabric.colours.any_dye() || transmits;
         skip(!specular, "no specular part in fabric '" + fabric.name + "'",
              "its evaluation at every point");
         skip(!diffuse, "no dye in fabric '" + fabric.name + "'", "the diffuse part at every point");

@@ -39,14 +39,19 @@ ChannelValues values_of(const Spectrum &spectrum, const SpectralBasis &basis) {
 }
 
 Colours colours_of(const Material &material, const SpectralBasis &basis) {
-    Colours c{values_of(material.dye, basis), values_of(material.transmittance, basis),
-              values_of(material.weft_tint, basis), values_of(material.warp_tint, basis)};
+    Colours c{values_of(material.dye, basis),       values_of(material.transmittance, basis),
+              values_of(material.weft_tint, basis), values_of(material.warp_tint, basis),
+              values_of(material.weft_body, basis), values_of(material.warp_body, basis)};
     // Least squares may leave the range where a spectrum has a steep edge
     for (ChannelValues *const colour : {&c.dye, &c.weft, &c.warp})
         for (float &value : *colour)
             value = std::min(value, 1.0f);
-    for (std::size_t k = 0; k < c.dye.size(); ++k)
-        c.transmittance[k] = std::min(c.transmittance[k], 1 - c.dye[k]);
+    for (std::size_t k = 0; k < c.dye.size(); ++k) {
+        c.weft_body[k] = std::min(c.weft_body[k], 1 - c.dye[k]);
+        c.warp_body[k] = std::min(c.warp_body[k], 1 - c.dye[k]);
+        c.transmittance[k] =
+            std::min(c.transmittance[k], 1 - c.dye[k] - std::max(c.weft_body[k], c.warp_body[k]));
+    }
     return c;
 }
 
@@ -55,7 +60,8 @@ MeanColours means_of(const Colours &c, int channels) {
         return std::accumulate(v.begin(), v.begin() + channels, 0.0f) /
                static_cast<float>(channels);
     };
-    return {mean(c.dye), mean(c.transmittance), 0.5f * (mean(c.weft) + mean(c.warp))};
+    return {mean(c.dye), mean(c.transmittance), 0.5f * (mean(c.weft) + mean(c.warp)),
+            0.5f * (mean(c.weft_body) + mean(c.warp_body))};
 }
 
 } // namespace

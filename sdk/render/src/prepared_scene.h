@@ -31,7 +31,7 @@ struct SurfacePoint {
 
 // Colours of the parts of a fabric's response, one value a channel of the render.
 struct Colours {
-    ChannelValues dye{}, transmittance{}, weft{}, warp{};
+    ChannelValues dye{}, transmittance{}, weft{}, warp{}, weft_body{}, warp_body{};
 };
 
 struct PreparedScene {

@@ -16,9 +16,11 @@ constexpr float kLeastTransmission = 1e-3f;
 
 Shading::Shading(const Material &material, const MeanColours &means, bool keep_idle_parts)
     : diffuse_(material.has_diffuse() || keep_idle_parts), couples_(material.has_specular()),
-      two_tints_(material.weft_tint != material.warp_tint), means_(means),
+      two_tints_(material.weft_tint != material.warp_tint),
+      two_dyes_(material.weft_body != material.warp_body), means_(means),
       transmitted_share_(
           means.transmittance > 0 ? means.transmittance / (means.dye + means.transmittance) : 0) {
+    body_ = material.body;
     if (!material.specular || !(material.has_specular() || keep_idle_parts))
         return;
     specular_ = material.specular;
@@ -47,14 +49,24 @@ ViewTerms Shading::view_terms(const glm::vec3 &to_viewer) const {
     if (couples_)
         view.diffuse_scale =
             (1 - albedo(to_viewer)) / std::max(1 - mean_albedo_, kLeastTransmission);
-    if (!diffuse_)
-        return {view.diffuse_scale, 1.0f};
-    const float bright = means_.specular * specular_->albedo_of_view(to_viewer);
-    const float dyed = (means_.dye + means_.transmittance) * view.diffuse_scale;
-    view.specular_share = dyed > 0 && bright > 0
-                              ? std::clamp(bright / (bright + dyed), kLeastShare, 1 - kLeastShare)
-                              : (bright > 0 ? 1.0f : 0.0f);
+    share_samples(to_viewer, view);
     return view;
+}
+
+// In proportion to what each part reflects, but for the least share of the two.
+void Shading::share_samples(const glm::vec3 &to_viewer, ViewTerms &view) const {
+    const float bright = specular_ ? means_.specular * specular_->albedo_of_view(to_viewer) : 0;
+    const float even = diffuse_ ? (means_.dye + means_.transmittance) * view.diffuse_scale : 0.0f;
+    const float body = body_ ? means_.body * body_->albedo(to_viewer) : 0.0f;
+    const float dyed = even + body;
+    if (!diffuse_ && !body_)
+        view.specular_share = 1;
+    else
+        view.specular_share = dyed > 0 && bright > 0 ? std::clamp(bright / (bright + dyed),
+                                                                  kLeastShare, 1 - kLeastShare)
+                                                     : (bright > 0 ? 1.0f : 0.0f);
+    if (body > 0)
+        view.body_share = (1 - view.specular_share) * body / dyed;
 }
 
 float Shading::diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) const {
@@ -67,12 +79,20 @@ void Shading::add_specular(Response &response, float all, float weft) const {
     response.warp = all - response.weft;
 }
 
+void Shading::add_body(Weighed &weighed, const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                       const ViewTerms &view) const {
+    const WeighedLight b = body_->weigh(to_light, to_viewer);
+    weighed.f_cos.weft_body = two_dyes_ ? b.weft : 0.0f;
+    weighed.f_cos.warp_body = b.f_cos - weighed.f_cos.weft_body;
+    weighed.pdf += view.body_share * b.pdf_per_sr;
+}
+
 Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
                        const ViewTerms &view) const {
     Weighed w;
     if (!(to_viewer.z > 0))
         return w;
-    const float diffuse_share = 1 - view.specular_share;
+    const float diffuse_share = view.diffuse_share();
     if (to_light.z < 0 && transmits()) {
         const glm::vec3 through(to_light.x, to_light.y, -to_light.z);
         w.f_cos.transmitted = diffuse_cos(through, view);
@@ -89,6 +109,8 @@ Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
         add_specular(w.f_cos, s.f_cos, s.weft);
         w.pdf += view.specular_share * s.pdf_per_sr;
     }
+    if (body_)
+        add_body(w, to_light, to_viewer, view);
     return w;
 }
 
@@ -105,10 +127,18 @@ std::optional<LightSample> Shading::sample(const glm::vec3 &to_viewer, const Vie
                      sampled->weft * sampled->pdf_per_sr);
         if (diffuse_) {
             w.f_cos.diffuse = diffuse_cos(light.to_light, view);
-            w.pdf += (1 - view.specular_share) * (1 - transmitted_share_) *
+            w.pdf += view.diffuse_share() * (1 - transmitted_share_) *
                      kLambert.pdf(light.to_light, to_viewer);
         }
+        if (body_)
+            add_body(w, light.to_light, to_viewer, view);
         return light;
+    }
+    if (body_ && choice.x < view.specular_share + view.body_share) {
+        const glm::vec3 to_light = body_->draw(to_viewer, u);
+        if (!(to_light.z > 0))
+            return std::nullopt;
+        return LightSample{to_light, weigh(to_light, to_viewer, view)};
     }
     glm::vec3 to_light = kLambert.draw(to_viewer, u);
     if (!(to_light.z > 0 && to_viewer.z > 0) || !diffuse_)

@@ -12,15 +12,19 @@ namespace tsuya {
 // f cos of the parts, before their colours: 1/sr.
 struct Response {
     float diffuse = 0;
-    float transmitted = 0;    // diffuse, of light from behind
-    float weft = 0, warp = 0; // specular; all of it warp where one colour serves both
+    float transmitted = 0; // diffuse, of light from behind
+    // Specular, and coloured light that follows the yarns; all of it warp where one colour serves
+    // both systems
+    float weft = 0, warp = 0, weft_body = 0, warp_body = 0;
 
-    float sum() const { return diffuse + transmitted + weft + warp; }
+    float sum() const { return diffuse + transmitted + weft + warp + weft_body + warp_body; }
     void add(const Response &r) {
         diffuse += r.diffuse;
         transmitted += r.transmitted;
         weft += r.weft;
         warp += r.warp;
+        weft_body += r.weft_body;
+        warp_body += r.warp_body;
     }
 };
 
@@ -42,13 +46,16 @@ struct LightSample {
 
 // Means of a material's colours over the channels.
 struct MeanColours {
-    float dye = 0, transmittance = 0, specular = 0;
+    float dye = 0, transmittance = 0, specular = 0, body = 0;
 };
 
 // What is the same for all lights of one view.
 struct ViewTerms {
     float diffuse_scale = 1;  // (1 - albedo(V)) / (1 - mean albedo)
     float specular_share = 0; // probability of sampling the specular part
+    float body_share = 0;     // and the body
+
+    float diffuse_share() const { return 1 - specular_share - body_share; }
 };
 
 // How a material scatters, before its colours. The dye lies below the specular surface: light that
@@ -72,11 +79,15 @@ class Shading {
   private:
     float diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) const;
     void add_specular(Response &response, float all, float weft) const;
+    void add_body(Weighed &weighed, const glm::vec3 &to_light, const glm::vec3 &to_viewer,
+                  const ViewTerms &view) const;
+    void share_samples(const glm::vec3 &to_viewer, ViewTerms &view) const;
     float albedo(const glm::vec3 &direction) const;
 
     std::optional<Brdf> specular_;
+    std::optional<BodyBrdf> body_; // the coloured part that follows the yarns
     bool diffuse_, couples_;
-    bool two_tints_;
+    bool two_tints_, two_dyes_;
     MeanColours means_;
     float transmitted_share_; // of the samples of the diffuse part
     float mean_albedo_ = 0;

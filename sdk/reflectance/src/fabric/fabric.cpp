@@ -52,8 +52,8 @@ struct SpecularCheck {
     void operator()(const TabulatedSpecular &) const {}
 };
 
-// Holds every spectrum to its range.
-struct SpectrumCheck {
+// Holds every spectrum and number to its range.
+struct ColoursCheck {
     const std::string &where;
     Problems &problems;
 
@@ -68,15 +68,45 @@ struct SpectrumCheck {
         if (spectrum)
             (*this)(field, *spectrum);
     }
+    void operator()(const detail::Field &, Lustre) const {}
+    void operator()(const detail::Field &field, const std::optional<double> &value) const {
+        if (value)
+            problems.need(*value >= field.low && *value <= field.high,
+                          std::string(field.key) + " is " + std::to_string(*value),
+                          where + "." + std::string(field.key), "expected a value from 0 to 1");
+    }
 };
+
+// What only yarns have: colours of either system, and a body that follows them.
+void check_needs_yarns(const Fabric &fabric, const std::string &where, Problems &problems) {
+    if (std::visit(TellsYarnsApart{}, fabric.specular))
+        return;
+    const FabricColours &colours = fabric.colours;
+    const std::string model(model_of(fabric));
+    const auto refuse = [&](bool given, const char *key, const char *accepted) {
+        problems.need(!given, "the model '" + model + "' does not tell weft and warp apart",
+                      where + key, accepted);
+    };
+    refuse(colours.weft_tint.has_value(), ".weft_tint",
+           "expected specular_tint, or the model 'yarn'");
+    refuse(colours.warp_tint.has_value(), ".warp_tint",
+           "expected specular_tint, or the model 'yarn'");
+    refuse(colours.weft_dye.has_value(), ".weft_dye", "expected dye, or the model 'yarn'");
+    refuse(colours.warp_dye.has_value(), ".warp_dye", "expected dye, or the model 'yarn'");
+    problems.need(colours.delustre.value_or(1) == 1,
+                  "the coloured part of the model '" + model + "' does not follow yarns",
+                  where + ".delustre", "expected 1, or the model 'yarn'");
+}
 
 // What is scattered to both sides is no more than arrives.
 void check_diffuse(const FabricColours &colours, const std::string &where, Problems &problems) {
-    std::vector<double> wavelengths = colours.dye.wavelength_nm;
-    wavelengths.insert(wavelengths.end(), colours.transmittance.wavelength_nm.begin(),
-                       colours.transmittance.wavelength_nm.end());
+    const Spectrum &weft = colours.dye_of_weft(), &warp = colours.dye_of_warp();
+    std::vector<double> wavelengths;
+    for (const Spectrum *const spectrum : {&weft, &warp, &colours.transmittance})
+        wavelengths.insert(wavelengths.end(), spectrum->wavelength_nm.begin(),
+                           spectrum->wavelength_nm.end());
     for (const double nm : wavelengths)
-        if (const double sum = colours.dye.at(nm) + colours.transmittance.at(nm);
+        if (const double sum = std::max(weft.at(nm), warp.at(nm)) + colours.transmittance.at(nm);
             !problems.need(sum <= 1 + 1e-9,
                            "dye and transmittance are " + std::to_string(sum) + " together at " +
                                std::to_string(nm) + " nm",
@@ -86,16 +116,14 @@ void check_diffuse(const FabricColours &colours, const std::string &where, Probl
 
 } // namespace
 
-bool Material::has_diffuse() const {
-    return dye.any_above_zero() || transmittance.any_above_zero();
-}
-
-bool Material::has_specular() const {
-    return specular && (weft_tint.any_above_zero() || warp_tint.any_above_zero());
-}
-
 const Spectrum &FabricColours::weft() const { return weft_tint ? *weft_tint : specular_tint; }
 const Spectrum &FabricColours::warp() const { return warp_tint ? *warp_tint : specular_tint; }
+
+const Spectrum &FabricColours::dye_of_weft() const { return weft_dye ? *weft_dye : dye; }
+const Spectrum &FabricColours::dye_of_warp() const { return warp_dye ? *warp_dye : dye; }
+bool FabricColours::any_dye() const {
+    return dye_of_weft().any_above_zero() || dye_of_warp().any_above_zero();
+}
 
 const Bard *views_of(const Fabric &fabric) {
     const CarriedViews *const views = find_specular<CarriedViews>(fabric);
@@ -113,7 +141,13 @@ bool has_specular(const Fabric &fabric) {
 }
 
 bool needs_frames(const Fabric &fabric) {
-    return has_specular(fabric) && std::visit(IsDirected{}, fabric.specular);
+    return (has_specular(fabric) && std::visit(IsDirected{}, fabric.specular)) || has_body(fabric);
+}
+
+bool has_body(const Fabric &fabric) {
+    return reflects(fabric.specular) && !std::holds_alternative<std::monostate>(fabric.specular) &&
+           std::visit(TellsYarnsApart{}, fabric.specular) && fabric.colours.any_dye() &&
+           fabric.colours.delustre != 1.0;
 }
 
 double f0_of(const CarriedViews &views) {
@@ -123,7 +157,7 @@ double f0_of(const CarriedViews &views) {
 void check_fabric(const Fabric &fabric, const std::string &where) {
     Problems problems;
     const FabricColours &colours = fabric.colours;
-    each_field(SpectrumCheck{where, problems}, colours);
+    each_field(ColoursCheck{where, problems}, colours);
     if (problems.empty())
         check_diffuse(colours, where, problems);
     const SpecularCheck check{where, problems};
@@ -133,12 +167,7 @@ void check_fabric(const Fabric &fabric, const std::string &where) {
         problems.need(kinds.insert(spare.index()).second,
                       "the fabric has two descriptions of one kind", where + ".spare",
                       "expected at most one of each");
-    if (colours.weft_tint || colours.warp_tint)
-        problems.need(std::visit(TellsYarnsApart{}, fabric.specular),
-                      "the model '" + std::string(model_of(fabric)) +
-                          "' does not tell weft and warp apart",
-                      where + (colours.weft_tint ? ".weft_tint" : ".warp_tint"),
-                      "expected specular_tint, or the model 'yarn'");
+    check_needs_yarns(fabric, where, problems);
     problems.throw_if_any();
 }
 
@@ -155,15 +184,6 @@ std::vector<Problem> fabric_warnings(const Fabric &fabric, const std::string &wh
          where + ".table",
          std::string("declare `# symmetry: ") + name_of(*symmetry) +
              "` in it if the cloth has that symmetry"}};
-}
-
-Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress) {
-    check_fabric(fabric, where);
-    return {.specular = make_brdf(fabric, where, progress),
-            .weft_tint = fabric.colours.weft(),
-            .warp_tint = fabric.colours.warp(),
-            .dye = fabric.colours.dye,
-            .transmittance = fabric.colours.transmittance};
 }
 
 } // namespace tsuya

@@ -39,6 +39,23 @@ Spectrum read_spectrum(const Section &section, const Field &field, const Spectru
     return spectrum;
 }
 
+// The value whose name the key has; names stand in the order of the values.
+template <class Enum, std::size_t N>
+Enum read_name(const Section &section, std::string_view key,
+               const std::array<std::string_view, N> &names, Enum otherwise) {
+    const auto text = section.text(key);
+    if (!text)
+        return otherwise;
+    const auto found = std::find(names.begin(), names.end(), *text);
+    if (found == names.end()) {
+        section.problem(
+            key, "unknown " + std::string(key) + " '" + *text + "'",
+            accepted_names(*text, std::vector<std::string>(names.begin(), names.end())));
+        return otherwise;
+    }
+    return static_cast<Enum>(found - names.begin());
+}
+
 // Reads the fields of a struct from the section that has their keys.
 struct FieldReader {
     const Section &section;
@@ -65,6 +82,9 @@ struct FieldReader {
     void operator()(const Field &field, std::optional<Spectrum> &spectrum) const {
         if (section.has(field.key))
             spectrum = read_spectrum(section, field, Spectrum::constant(1));
+    }
+    void operator()(const Field &field, Lustre &lustre) const {
+        lustre = read_name(section, field.key, kLustreNames, lustre);
     }
     template <std::size_t N>
     void operator()(const Field &field, std::array<double, N> &values) const {
@@ -270,6 +290,15 @@ class FabricWriter {
     void operator()(const Field &field, const std::optional<Spectrum> &spectrum) {
         if (spectrum)
             (*this)(field, *spectrum);
+    }
+    void operator()(const Field &field, Lustre lustre) {
+        if (field.written)
+            keys_ << field.key << " = "
+                  << quoted(std::string(kLustreNames[static_cast<std::size_t>(lustre)])) << "\n";
+    }
+    void operator()(const Field &field, const std::optional<double> &value) {
+        if (value)
+            keys_ << field.key << " = " << *value << "\n";
     }
     void operator()(const Field &, const FabricColours &colours) { each_field(*this, colours); }
     void operator()(const Field &, const Specular &) {} // see write_specular

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -23,19 +24,33 @@ int held_quarters(Symmetry symmetry) {
     return symmetry == Symmetry::orthotropic ? 1 : symmetry == Symmetry::half_turn ? 2 : 4;
 }
 
+std::vector<float> values_at(const std::vector<glm::vec3> &nodes,
+                             const std::function<float(const glm::vec3 &)> &function) {
+    std::vector<float> values(nodes.size());
+    tbb::parallel_for(std::size_t{0}, nodes.size(),
+                      [&](std::size_t n) { values[n] = function(nodes[n]); });
+    return values;
+}
+
 } // namespace
+
+AlbedoTable::AlbedoTable(Symmetry symmetry, std::vector<float> values, int columns_of_quarter)
+    : symmetry_(symmetry), columns_of_quarter_(columns_of_quarter),
+      columns_(held_quarters(symmetry) * columns_of_quarter + 1), value_(std::move(values)) {}
 
 AlbedoTable::AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function,
                          int columns_of_quarter)
-    : symmetry_(symmetry), columns_of_quarter_(columns_of_quarter),
-      columns_(held_quarters(symmetry) * columns_of_quarter + 1),
-      value_(static_cast<std::size_t>(kRows * columns_)) {
-    tbb::parallel_for(0, kRows, [&](int j) {
-        for (int i = 0; i < columns_; ++i)
-            value_[static_cast<std::size_t>(j * columns_ + i)] = function(
-                direction_of(static_cast<float>(i) / static_cast<float>(columns_of_quarter_),
+    : AlbedoTable(symmetry, values_at(nodes(symmetry, columns_of_quarter), function),
+                  columns_of_quarter) {}
+
+std::vector<glm::vec3> AlbedoTable::nodes(Symmetry symmetry, int columns_of_quarter) {
+    std::vector<glm::vec3> all;
+    for (int j = 0; j < kRows; ++j)
+        for (int i = 0; i <= held_quarters(symmetry) * columns_of_quarter; ++i)
+            all.push_back(
+                direction_of(static_cast<float>(i) / static_cast<float>(columns_of_quarter),
                              static_cast<float>(j) / (kRows - 1)));
-    });
+    return all;
 }
 
 float AlbedoTable::at(const glm::vec3 &direction) const {

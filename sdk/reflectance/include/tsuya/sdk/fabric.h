@@ -16,8 +16,10 @@
 #include <vector>
 
 #include "tsuya/sdk/bard.h"
+#include "tsuya/sdk/body.h"
 #include "tsuya/sdk/brdf.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/lustre.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/spectrum.h"
 #include "tsuya/sdk/yarn_lobes.h"
@@ -63,7 +65,16 @@ using Specular =
 
 /// The spectra of a fabric.
 struct FabricColours {
-    Spectrum dye = Spectrum::constant(0.0); ///< diffuse reflectance, 0..1
+    /// Reflectance of the coloured part, 0..1: what a spectrophotometer measures with light at 8
+    /// degrees and the specular part excluded
+    Spectrum dye = Spectrum::constant(0.0);
+    /// The same of one system of yarns, in its place: weft and warp of a shot silk are dyed apart.
+    /// For specular parts that tell the systems apart: yarns, given or fitted.
+    std::optional<Spectrum> weft_dye{}, warp_dye{};
+    Lustre lustre = Lustre::bright; ///< of the filaments, for delustre_of
+    /// Share of the coloured part that is Lambertian, 0..1. None: delustre_of the lustre and the
+    /// dye at each wavelength for specular parts made of yarns, 1 for all others.
+    std::optional<double> delustre{};
     /// Diffuse transmittance of the thin cloth, 0..1, with the dye at most 1: light from behind
     Spectrum transmittance = Spectrum::constant(0.0);
     Spectrum specular_tint = Spectrum::constant(1); ///< colour of the specular part, 0..1
@@ -71,10 +82,16 @@ struct FabricColours {
     /// For specular parts that tell the systems apart: yarns, given or fitted.
     std::optional<Spectrum> weft_tint{}, warp_tint{};
 
-    /// Colour of what either system of yarns reflects.
+    /// Colour of what either system of yarns reflects on its surface.
     const Spectrum &weft() const;
     /// As `weft`, of the other system.
     const Spectrum &warp() const;
+    /// Dye of either system.
+    const Spectrum &dye_of_weft() const;
+    /// As `dye_of_weft`, of the other system.
+    const Spectrum &dye_of_warp() const;
+    /// A dye is above 0 somewhere.
+    bool any_dye() const;
     bool operator==(const FabricColours &) const = default;
 };
 
@@ -115,6 +132,10 @@ bool reflects(const Specular &specular);
 /// The fabric has a specular part that reflects, with a colour.
 bool has_specular(const Fabric &fabric);
 
+/// The fabric has a coloured part that follows its yarns: it has a dye, a specular part made of
+/// yarns, and no delustre of 1.
+bool has_body(const Fabric &fabric);
+
 /// The fabric reflects otherwise when it is turned: its surface needs yarn directions. Not so a
 /// fabric without specular part, an ideal diffuser, and facets given as wide along the weft as
 /// along the warp. What is carried from views counts as directed, whatever they show.
@@ -125,7 +146,8 @@ double f0_of(const CarriedViews &views);
 
 /// Throws Error naming `where`, with every rule that is broken: a spectrum outside 0..1; dye and
 /// transmittance above 1 together; f0 outside (0, 1]; facets as check_ggx; two descriptions of one
-/// kind; tints of weft and warp for a specular part that does not tell them apart.
+/// kind; tints or dyes of weft and warp, or a delustre below 1, for a specular part that does not
+/// tell them apart.
 void check_fabric(const Fabric &fabric, const std::string &where);
 
 /// What is allowed and probably not meant, each with its place below `where`: a table of which
@@ -137,9 +159,13 @@ struct Material {
     std::optional<Brdf> specular{};
     /// Colours of what yarns along the weft reflect, see WeighedLight, and of the rest
     Spectrum weft_tint = Spectrum::constant(1), warp_tint = Spectrum::constant(1);
+    /// Albedo of the Lambertian part, before the specular part takes its share
     Spectrum dye = Spectrum::constant(0), transmittance = Spectrum::constant(0);
+    /// The coloured part that follows the yarns, below the specular part; none: all is Lambertian
+    std::optional<BodyBrdf> body{};
+    Spectrum weft_body = Spectrum::constant(0), warp_body = Spectrum::constant(0); ///< its colours
 
-    bool has_diffuse() const;  ///< dye or transmittance
+    bool has_diffuse() const;  ///< Lambertian: dye or transmittance
     bool has_specular() const; ///< with a colour
 };
 

@@ -21,6 +21,11 @@ class AlbedoTable {
     /// \param columns_of_quarter steps of azimuth in a quarter turn; 8 are 11 degrees
     AlbedoTable(Symmetry symmetry, const std::function<float(const glm::vec3 &)> &function,
                 int columns_of_quarter = 8);
+    /// The same of values at the directions of `nodes`.
+    AlbedoTable(Symmetry symmetry, std::vector<float> values, int columns_of_quarter);
+    /// The unit directions, z > 0, at which the table holds a value.
+    static std::vector<glm::vec3> nodes(Symmetry symmetry, int columns_of_quarter);
+
     /// \param direction unit, z >= 0
     float at(const glm::vec3 &direction) const;
     float maximum() const;

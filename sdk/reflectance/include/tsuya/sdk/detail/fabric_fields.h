@@ -17,8 +17,13 @@ template <class F, detail::MaybeConst<Spectrum> T> void each_field(F &&f, T &spe
 }
 
 template <class F, detail::MaybeConst<FabricColours> T> void each_field(F &&f, T &colours) {
-    auto &[dye, transmittance, specular_tint, weft_tint, warp_tint] = colours;
+    auto &[dye, weft_dye, warp_dye, lustre, delustre, transmittance, specular_tint, weft_tint,
+           warp_tint] = colours;
     f(detail::Field{.key = "dye", .low = 0, .high = 1}, dye);
+    f(detail::Field{.key = "weft_dye", .low = 0, .high = 1}, weft_dye);
+    f(detail::Field{.key = "warp_dye", .low = 0, .high = 1}, warp_dye);
+    f(detail::Field{.key = "lustre", .written = lustre != Lustre::bright}, lustre);
+    f(detail::Field{.key = "delustre", .low = 0, .high = 1}, delustre);
     f(
         detail::Field{
             .key = "transmittance", .low = 0, .high = 1, .written = transmittance.any_above_zero()},

@@ -1,0 +1,124 @@
+// From a fabric to what the renderer shades with.
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/fabric.h"
+#include "tsuya/sdk/model.h"
+
+namespace tsuya {
+namespace {
+
+// function(a, b) at the wavelengths of both.
+template <class Function>
+Spectrum combined(const Spectrum &a, const Spectrum &b, const Function &function) {
+    std::set<double> wavelengths(a.wavelength_nm.begin(), a.wavelength_nm.end());
+    wavelengths.insert(b.wavelength_nm.begin(), b.wavelength_nm.end());
+    Spectrum made{{wavelengths.begin(), wavelengths.end()}, {}};
+    for (const double nm : wavelengths)
+        made.value.push_back(function(a.at(nm), b.at(nm)));
+    return made;
+}
+
+// The same of one spectrum.
+template <class Function> Spectrum mapped(Spectrum spectrum, const Function &function) {
+    for (double &value : spectrum.value)
+        value = function(value);
+    return spectrum;
+}
+
+// Of the filaments of both systems.
+double weft_share(const YarnLobes &lobes) {
+    const auto filaments = [&](std::size_t axis) {
+        return std::accumulate(lobes.surface[axis].begin(), lobes.surface[axis].end(), 0.0);
+    };
+    const double weft = filaments(0), both = weft + filaments(1);
+    return both > 0 ? weft / both : 0.5;
+}
+
+// The mean of an albedo at 8 degrees from the normal, where the port of a spectrophotometer is.
+template <class Albedo> double at_port(const Albedo &albedo) {
+    const float sine = static_cast<float>(std::sin(8 * kDegree));
+    const float cosine = static_cast<float>(std::cos(8 * kDegree));
+    return 0.5 * (static_cast<double>(albedo(glm::vec3(sine, 0, cosine))) +
+                  static_cast<double>(albedo(glm::vec3(0, sine, cosine))));
+}
+
+// The coloured part by what a spectrophotometer sees of it: `even` and `body` of the light at the
+// port are what a Lambertian part and a body without absorption would send back.
+struct Port {
+    const FabricColours &colours;
+    double even = 1, body = 1;
+    bool has_body = false;
+
+    double most() const { return has_body ? std::min(even, body) : even; }
+    // Share of a reflectance that is Lambertian
+    double delustre(double reflectance) const {
+        return has_body ? colours.delustre.value_or(delustre_of(colours.lustre, reflectance)) : 1;
+    }
+    double even_albedo(double dye) const {
+        const double r = std::min(dye, most());
+        return r * delustre(r) / even;
+    }
+    double body_albedo(double dye) const {
+        const double r = std::min(dye, most());
+        return r * (1 - delustre(r)) / body;
+    }
+    // Of what the surface lets through, and no more than the dye leaves of it
+    double transmitted(double transmittance, double dye) const {
+        return std::min(transmittance, most() - std::min(dye, most())) / even;
+    }
+};
+
+// Adds the coloured part and what the cloth lets through.
+void add_colours(const FabricColours &colours, Material &material, const Progress &progress) {
+    constexpr double kLeastPassed = 1e-3; // of a surface that reflects all
+    const auto surface = [&](const glm::vec3 &d) {
+        return material.has_specular() ? std::min(material.specular->albedo_of_view(d), 1.0f)
+                                       : 0.0f;
+    };
+    const auto *const yarns = material.specular ? material.specular->get_if<YarnBrdf>() : nullptr;
+    Port port{.colours = colours, .even = std::max(1 - at_port(surface), kLeastPassed)};
+    if (yarns && colours.any_dye() && colours.delustre != 1.0) {
+        material.body.emplace(yarns->lobes(), surface, progress);
+        port.has_body = true;
+        port.body = at_port([&](const glm::vec3 &d) { return material.body->albedo(d); });
+    }
+    const Spectrum &weft = colours.dye_of_weft(), &warp = colours.dye_of_warp();
+    const double share = yarns ? weft_share(yarns->lobes()) : 0.5;
+    material.dye = combined(weft, warp, [&](double a, double b) {
+        return share * port.even_albedo(a) + (1 - share) * port.even_albedo(b);
+    });
+    material.transmittance =
+        combined(colours.transmittance,
+                 combined(weft, warp, [](double a, double b) { return std::max(a, b); }),
+                 [&](double t, double dye) { return port.transmitted(t, dye); });
+    if (!material.body)
+        return;
+    material.weft_body = mapped(weft, [&](double r) { return port.body_albedo(r); });
+    material.warp_body = mapped(warp, [&](double r) { return port.body_albedo(r); });
+}
+
+} // namespace
+
+bool Material::has_diffuse() const {
+    return dye.any_above_zero() || transmittance.any_above_zero();
+}
+
+bool Material::has_specular() const {
+    return specular && (weft_tint.any_above_zero() || warp_tint.any_above_zero());
+}
+
+Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress) {
+    check_fabric(fabric, where);
+    Material material{.specular = make_brdf(fabric, where, progress),
+                      .weft_tint = fabric.colours.weft(),
+                      .warp_tint = fabric.colours.warp()};
+    add_colours(fabric.colours, material, progress);
+    return material;
+}
+
+} // namespace tsuya
