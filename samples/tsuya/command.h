@@ -66,6 +66,7 @@ std::unique_ptr<Command> make_garment_check();
 std::unique_ptr<Command> make_garment_subdivide();
 std::unique_ptr<Command> make_lab_lines();
 std::unique_ptr<Command> make_lab_pulse();
+std::unique_ptr<Command> make_lab_plan();
 std::unique_ptr<Command> make_list();
 
 } // namespace tsuya::program

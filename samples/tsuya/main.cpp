@@ -30,6 +30,7 @@ constexpr std::array kCommands{
     CommandEntry{"lab", "Drive the measuring rig", nullptr},
     CommandEntry{"lab lines", "The GPIO lines of this computer", make_lab_lines},
     CommandEntry{"lab pulse", "Open the shutter for exact times", make_lab_pulse},
+    CommandEntry{"lab plan", "Plan the frames of a capture session", make_lab_plan},
     CommandEntry{"list", "What can be named: lamps, dyes, fabrics, ...", make_list},
 };
 

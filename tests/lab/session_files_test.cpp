@@ -1,6 +1,6 @@
 #include "tsuya/lab/session.h"
 
-#include "lab/scratch_folder.h"
+#include "samples/scratch.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
@@ -9,7 +9,7 @@
 namespace tsuya::lab {
 namespace {
 
-using test::ScratchFolder;
+using scene::Scratch;
 
 Plan small_plan() {
     const DirectionPair at{.theta_i = 0, .phi_i = 0, .theta_r = 45 * kDegree, .phi_r = 0.1};
@@ -43,7 +43,7 @@ std::string replaced(std::string text, const std::string &what, const std::strin
 }
 
 TEST(PlanFile, IsReadAsItWasWritten) {
-    const ScratchFolder folder;
+    const Scratch folder;
     write_plan(small_plan(), folder / "a.jsonl");
     const Plan plan = read_plan(folder / "a.jsonl");
     EXPECT_EQ(plan.symmetry, Symmetry::half_turn);
@@ -63,7 +63,7 @@ TEST(PlanFile, IsReadAsItWasWritten) {
 }
 
 TEST(PlanFile, IsRefusedWithPlaceAndReason) {
-    const ScratchFolder folder;
+    const Scratch folder;
     const std::string text = plan_text(small_plan());
     struct Case {
         std::string what, by, expected;
@@ -131,7 +131,7 @@ TEST(Journal, HasTheChecksumOfTheStandard) {
 }
 
 TEST(Journal, IsReadAsItWasWritten) {
-    const ScratchFolder folder;
+    const Scratch folder;
     const std::string text = text_of(small_journal());
     write_file(folder / "a.jsonl", text);
     const Journal journal = read_journal(folder / "a.jsonl");
@@ -147,7 +147,7 @@ TEST(Journal, IsReadAsItWasWritten) {
 
 // Cut at each byte of its last line, a journal has all lines before.
 TEST(Journal, LosesNothingButATornLastLine) {
-    const ScratchFolder folder;
+    const Scratch folder;
     const std::string text = text_of(small_journal());
     const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
     for (std::size_t end = last; end < text.size(); ++end) {
@@ -161,7 +161,7 @@ TEST(Journal, LosesNothingButATornLastLine) {
 
 // Every byte of a line but the break at its end is covered by the checksum.
 TEST(Journal, AChangedByteIsToldAtItsLine) {
-    const ScratchFolder folder;
+    const Scratch folder;
     const std::string text = text_of(small_journal());
     const std::size_t begin = text.find('\n') + 1, end = text.find('\n', begin);
     for (std::size_t at = begin; at < end; ++at) {
@@ -198,16 +198,16 @@ class SessionFolder : public testing::Test {
         std::vector<JournalEvent> events = small_journal();
         events.push_back(event);
         write(events);
-        const Problem problem = problem_of([&] { read_session(folder_.path()); });
+        const Problem problem = problem_of([&] { read_session(folder_.folder()); });
         EXPECT_EQ(problem.where, journal().string() + ":6");
         return problem.what;
     }
 
-    ScratchFolder folder_;
+    Scratch folder_;
 };
 
 TEST_F(SessionFolder, IsReadWithWhatCounts) {
-    const Session session = read_session(folder_.path());
+    const Session session = read_session(folder_.folder());
     ASSERT_EQ(session.frames.size(), 2u);
     EXPECT_EQ(session.frames[0].number, 0u);
     EXPECT_EQ(session.frames[0].planned.kind, FrameKind::white);

@@ -13,13 +13,13 @@
 
 namespace tsuya::scene {
 
-/// An empty folder of the running test; removed at the end.
+/// An empty folder of the running test, another one for each object; removed at the end.
 class Scratch {
   public:
     Scratch() {
         const auto *test = testing::UnitTest::GetInstance()->current_test_info();
         std::string name = std::string("tsuya-") + test->test_suite_name() + "-" + test->name() +
-                           "-" + std::to_string(getpid());
+                           "-" + std::to_string(getpid()) + "-" + std::to_string(++count_);
         std::replace(name.begin(), name.end(), '/', '-'); // of parameterised tests
         folder_ = std::filesystem::temp_directory_path() / name;
         std::filesystem::remove_all(folder_);
@@ -43,6 +43,7 @@ class Scratch {
     }
 
   private:
+    inline static int count_ = 0;
     std::filesystem::path folder_;
 };
 

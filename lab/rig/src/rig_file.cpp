@@ -157,6 +157,7 @@ void read_pictures(const Section &section, const std::filesystem::path &folder, 
             section.problem("extension", "is '" + *extension + "'",
                             "expected small letters and digits, such as cr2");
     }
+    read_seconds(section, "transfer_s", camera.transfer);
     camera.frame_mb = section.number("frame_mb", 0.001, 1e4).value_or(camera.frame_mb);
     if (section.has("response"))
         camera.response = existing_file(section, folder, "response", "a response curve as CSV");

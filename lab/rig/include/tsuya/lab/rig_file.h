@@ -56,7 +56,8 @@ struct RigCamera {
     /// Empty: the shutter line triggers, and pictures arrive in `watch_folder`.
     std::vector<std::string> command{};
     std::filesystem::path watch_folder{};
-    Seconds timeout{60};               ///< then the command's process group is killed
+    Seconds timeout{60}; ///< then the command's process group is killed
+    Seconds transfer{2}; ///< from the end of an exposure to the picture, for the plan's estimate
     std::vector<double> exposures_s{}; ///< ascending, at least one
     double black = 0;                  ///< DN without light
     double saturation = 0;             ///< DN from which a pixel is clipped

@@ -64,4 +64,39 @@ std::string journal_line(const JournalEvent &event);
 /// not follow the one before, or an unknown kind or key.
 Journal read_journal(const std::filesystem::path &file);
 
+/// Appends events to a journal, for one process at a time.
+class JournalWriter {
+  public:
+    /// Opens the file, makes it where there is none, drops a torn last line, and locks it. Throws
+    /// what read_journal throws, and Error naming the file if it cannot be written or another
+    /// process has it, with that process's number.
+    explicit JournalWriter(std::filesystem::path file);
+    ~JournalWriter();
+    JournalWriter(const JournalWriter &) = delete;
+    JournalWriter &operator=(const JournalWriter &) = delete;
+
+    /// What stood there when it was opened.
+    const Journal &before() const { return before_; }
+    /// Gives the event its `seq` and appends it. Throws Error naming the file, which then ends with
+    /// the line before.
+    void append(JournalEvent event);
+    /// Returns when all that was appended is on the disk. Throws Error naming the file.
+    void sync();
+
+  private:
+    void lock();
+    [[noreturn]] void fail(const std::string &what, int code) const;
+
+    std::filesystem::path file_;
+    Journal before_{};
+    int descriptor_ = -1;
+    std::uint64_t next_seq_ = 0, bytes_ = 0;
+};
+
+/// Makes the names in a folder as lasting as the files. Throws Error naming it.
+void sync_folder(const std::filesystem::path &folder);
+
+/// Makes a file's bytes lasting. Throws Error naming it.
+void sync_file(const std::filesystem::path &file);
+
 } // namespace tsuya::lab

@@ -1,0 +1,130 @@
+// tsuya lab plan: every frame of a capture session, in order.
+
+#include <iomanip>
+#include <iostream>
+#include <map>
+
+#include "command.h"
+#include "json.h"
+#include "tsuya/lab/planning.h"
+#include "tsuya/scene/output_file.h"
+
+namespace tsuya::program {
+namespace {
+
+const std::vector<std::string> kWhites{"each-light", "each-view"};
+
+struct LabPlan final : Command {
+    std::filesystem::path rig_file{}, output{};
+    std::string views = "few:5", white = "each-light";
+    std::optional<std::string> symmetry{};
+    int white_every = 50;
+    bool json = false;
+
+    void options(Options &o) override {
+        o.argument(&rig_file, "RIG.toml", "rig file").required();
+        o.option("-o,--output", &output, "PLAN.jsonl", "plan of the session").required();
+        o.option("--views", &views, "VIEWS",
+                 "directions to measure: few:STEP, views every STEP degrees under light along the "
+                 "normal; paper, the set of Takeda et al.; or a table of reflectance, for its "
+                 "directions");
+        o.option("--symmetry", &symmetry, "S",
+                 "symmetry of the cloth, whose repeated views few:STEP leaves out; without it, "
+                 "half-turn for few:STEP, none for paper, and that of a table")
+            .one_of({name_of(Symmetry::none), name_of(Symmetry::half_turn),
+                     name_of(Symmetry::orthotropic)});
+        o.option("--white", &white, "USE",
+                 "white standard: at one view for each direction of light, or at each view")
+            .one_of(kWhites);
+        o.option("--white-every", &white_every, "N", "views between white frames").range(1, 1e4);
+        o.flag("--json", &json, "print the report as JSON");
+        o.example("tsuya lab plan ogm.rig.toml --views few:5 -o satin.plan.jsonl");
+        o.notes("Views that the rig cannot take are left out; the plan names each with its "
+                "reason.");
+    }
+
+    Status run(Console &) override {
+        scene::check_output_file(output, {".jsonl"});
+        const lab::RigFile rig = lab::read_rig_file(rig_file);
+        const lab::Plan plan =
+            lab::make_plan(rig, {.directions = lab::views_named(views, asked_symmetry()),
+                                 .views = views,
+                                 .rig = std::filesystem::absolute(rig_file).lexically_normal(),
+                                 .white = white == kWhites[0] ? lab::WhiteUse::each_light
+                                                              : lab::WhiteUse::each_view,
+                                 .white_every = static_cast<std::size_t>(white_every)});
+        lab::write_plan(plan, output);
+        const lab::PlanEstimate sum = lab::estimate(plan, rig);
+        if (json)
+            print_json(plan, sum);
+        else
+            print(plan, sum);
+        return kDone;
+    }
+
+    std::optional<Symmetry> asked_symmetry() const {
+        for (const Symmetry known : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
+            if (symmetry == name_of(known))
+                return known;
+        return std::nullopt;
+    }
+
+    /// How many views are left out for each reason, of which the numbers are left out.
+    static std::map<std::string, std::size_t> reasons(const lab::Plan &plan) {
+        std::map<std::string, std::size_t> counts;
+        for (const lab::LeftOut &left_out : plan.left_out)
+            ++counts[left_out.why.substr(0, left_out.why.find(':'))];
+        return counts;
+    }
+
+    static std::map<std::string, std::size_t> kinds(const lab::Plan &plan) {
+        std::map<std::string, std::size_t> counts;
+        for (const lab::PlannedFrame &frame : plan.frames)
+            ++counts[lab::name_of(frame.kind)];
+        return counts;
+    }
+
+    void print(const lab::Plan &plan, const lab::PlanEstimate &sum) const {
+        std::cout << sum.frames << " frames of " << sum.views << " views:";
+        for (const auto &[kind, count] : kinds(plan))
+            std::cout << " " << kind << " " << count;
+        std::cout << "\n" << plan.left_out.size() << " views left out:";
+        for (const auto &[reason, count] : reasons(plan))
+            std::cout << " " << reason << " " << count;
+        std::cout << "\nmoves:";
+        for (std::size_t i = 0; i < lab::kAxes; ++i)
+            std::cout << " " << lab::name_of(static_cast<lab::AxisName>(i)) << " " << sum.moves[i];
+        std::cout << ", changes of the sample " << sum.sample_changes << "\n"
+                  << std::fixed << std::setprecision(1) << "time " << sum.time.count() / 3600
+                  << " h, strikes of the lamp " << sum.strikes << ", disk " << sum.disk_mb / 1000
+                  << " GB\n"
+                  << output.string() << "\n";
+    }
+
+    static void print_json(const lab::Plan &plan, const lab::PlanEstimate &sum) {
+        Json report{{"schema", "tsuya-lab-plan 1"},
+                    {"frames", sum.frames},
+                    {"views", sum.views},
+                    {"kinds", Json::object()},
+                    {"left_out", plan.left_out.size()},
+                    {"left_out_for", Json::object()},
+                    {"moves", Json::object()},
+                    {"sample_changes", sum.sample_changes},
+                    {"strikes", sum.strikes},
+                    {"time_s", sum.time.count()},
+                    {"disk_mb", sum.disk_mb}};
+        for (const auto &[kind, count] : kinds(plan))
+            report["kinds"][kind] = count;
+        for (const auto &[reason, count] : reasons(plan))
+            report["left_out_for"][reason] = count;
+        for (std::size_t i = 0; i < lab::kAxes; ++i)
+            report["moves"][lab::name_of(static_cast<lab::AxisName>(i))] = sum.moves[i];
+        std::cout << report.text() << "\n";
+    }
+};
+
+} // namespace
+
+std::unique_ptr<Command> make_lab_plan() { return std::make_unique<LabPlan>(); }
+
+} // namespace tsuya::program
