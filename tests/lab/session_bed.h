@@ -86,7 +86,7 @@ class BedCamera final : public FrameCamera {
     }
     std::string picture_of(const Shot &shot) {
         const std::string unique =
-            shot.number ? std::to_string(*shot.number) : "white-" + std::to_string(beside_++);
+            shot.number ? std::to_string(*shot.number) : "white-" + std::to_string(shot.time_s);
         return picture_text(shot, white_mean ? white_mean() : 200, unique);
     }
 
@@ -97,7 +97,6 @@ class BedCamera final : public FrameCamera {
 
   private:
     Clock &clock_;
-    int beside_ = 0;
 };
 
 class BedMechanics final : public Mechanics {

@@ -318,6 +318,29 @@ TEST_F(SessionRuns, ALineThatFailsEndsTheSession) {
     run.expect_off();
 }
 
+TEST_F(SessionRuns, TellWhereTheLampMayStillBeOn) {
+    struct Stuck final : OutputLine {
+        void set(bool active) override {
+            if (!active)
+                throw Error({"the relay is stuck", "lamp", ""});
+        }
+        const std::string &name() const override { return name_; }
+        std::string name_ = "lamp";
+    } stuck;
+    BedRun run(bed.rig);
+    run.time.at(950s, [&] { run.interlock.change(false); });
+    SessionHardware hardware = run.hardware();
+    hardware.lamp = &stuck;
+    try {
+        run_session(bed.folder(), bed.rig, hardware, {});
+        FAIL() << "no error";
+    } catch (const Error &error) {
+        ASSERT_EQ(error.problems().size(), 2u);
+        EXPECT_TRUE(error.problems()[0].what.starts_with("may still be on"));
+        EXPECT_EQ(error.problems()[1].where, "interlock");
+    }
+}
+
 TEST(SessionFolders, AreMadeOnceOfTheRigOfThePlan) {
     SessionBed bed;
     bed.create();

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <unistd.h>
@@ -104,6 +106,34 @@ TEST(Supervisor, PassesErrorsAndInterruptionsOn) {
     EXPECT_THROW(run_supervised(lines.supervision, [](Worker &) { throw Interrupted("so far"); }),
                  Interrupted);
     lines.expect_driven_off_twice();
+}
+
+// What the work runs is killed with it, also in a process group of its own.
+TEST(Supervisor, KillsTheCommandOfTheWork) {
+    SupervisedLines lines;
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("tsuya_group_" + std::to_string(getpid()));
+    EXPECT_NE(lines.error_of([&](Worker &worker) {
+        const pid_t command = fork();
+        if (command == 0) {
+            setpgid(0, 0);
+            sleep(60);
+            _exit(0);
+        }
+        setpgid(command, command);
+        std::ofstream(file) << command;
+        worker.command_group(command);
+        kill(getpid(), SIGKILL);
+    }),
+              "no error");
+    int group = 0;
+    std::ifstream(file) >> group;
+    std::filesystem::remove(file);
+    ASSERT_GT(group, 0);
+    SteadyClock clock;
+    for (int i = 0; i < 200 && kill(-group, 0) == 0; ++i)
+        static_cast<void>(clock.sleep_until(clock.now() + 10ms, nullptr));
+    EXPECT_NE(kill(-group, 0), 0);
 }
 
 TEST(Supervisor, WorkThatHangsIsKilled) {

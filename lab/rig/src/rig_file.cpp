@@ -196,6 +196,8 @@ void read_controller(const Section &section, RigAxis &axis) {
     axis.port = section.required_text("port");
     const std::vector<std::string> letters{"X", "Y", "Z", "A", "B", "C"};
     axis.letter = letters[read_choice(section, "letter", letters, true)][0];
+    axis.feed_deg_per_min =
+        section.number("feed_deg_per_min", 1, 1e5).value_or(axis.feed_deg_per_min);
 }
 
 RigAxis read_axis(const Section &section) {

@@ -56,6 +56,7 @@ class Supervisor {
     const Progress &progress_;
     WorkerPipes &pipes_;
     pid_t child_;
+    int command_ = 0; ///< process group of what the work runs
     SteadyClock clock_{};
     nanoseconds last_beat_{clock_.now()};
     nanoseconds last_check_{last_beat_};
@@ -104,6 +105,9 @@ void Supervisor::take(const Frame &frame) {
     case FrameKind::message:
         if (supervision_.receive && !stopping_) // after a stop the lines are off under the work
             supervision_.receive(frame.payload);
+        break;
+    case FrameKind::group:
+        std::memcpy(&command_, frame.payload.data(), sizeof command_);
         break;
     case FrameKind::problem: {
         const std::size_t where = frame.payload.find('\0') + 1;
@@ -166,6 +170,8 @@ std::vector<Problem> Supervisor::end() {
     // One that ended by itself and was not waited for still has its number, so this kills no other.
     kill(-child_, SIGKILL);
     kill(child_, SIGKILL);
+    if (command_ > 0)
+        kill(-command_, SIGKILL);
     wait_for_child();
     std::vector<Problem> still_on = drive_off(); // the child could have set them in between
     if (supervision_.heartbeat) {

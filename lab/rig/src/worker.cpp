@@ -33,6 +33,10 @@ void Worker::send(std::string_view message) {
     pipes_.write(FrameKind::message, message, false);
 }
 
+void Worker::command_group(int group) {
+    pipes_.write(FrameKind::group, {reinterpret_cast<const char *>(&group), sizeof group}, false);
+}
+
 Progress Worker::progress() {
     return {.report =
                 [this](std::string_view stage, double fraction) {

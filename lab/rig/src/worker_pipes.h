@@ -12,6 +12,7 @@ enum class FrameKind : char {
     beat,
     progress,    ///< fraction as double, then the stage
     message,     ///< of Worker::send
+    group,       ///< the process group of a command that runs, an int; 0: none does
     problem,     ///< what, where, accepted, each ended by a zero byte
     failed,      ///< the last frame of work that threw; after its problems
     interrupted, ///< the last frame of work that was stopped, with why

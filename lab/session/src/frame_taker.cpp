@@ -8,7 +8,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::chrono::milliseconds kLook{20}; // at a camera that is busy
+constexpr std::chrono::milliseconds kLook{20};  // at a camera that is busy
+constexpr std::chrono::milliseconds kWake{300}; // of a half-pressed camera, before the exposure
 
 nanoseconds nanoseconds_of(Seconds time) { return std::chrono::round<nanoseconds>(time); }
 
@@ -86,6 +87,11 @@ void FrameTaker::set_shutter(bool open) {
 }
 
 void FrameTaker::expose(const Shot &shot) {
+    const OffGuard released({hardware_.half_press});
+    if (hardware_.half_press) {
+        hardware_.half_press->set(true);
+        sleep(kWake);
+    }
     const bool opens = shot.planned.kind != FrameKind::dark && hardware_.shutter;
     if (opens) {
         const Seconds pause{shot.planned.exposure_s / rig_.shutter.max_duty};

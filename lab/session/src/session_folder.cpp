@@ -83,7 +83,9 @@ void check_same_rig_and_plan(const fs::path &folder, const fs::path &rig) {
     Problems problems;
     add_differences(folder / "rig.toml", rig, problems);
     const fs::path plan = folder / "plan.jsonl";
-    for (const JournalEvent &event : read_journal(folder / "journal.jsonl").events)
+    const fs::path journal = folder / "journal.jsonl";
+    const Journal begun = fs::exists(journal) ? read_journal(journal) : Journal{};
+    for (const JournalEvent &event : begun.events)
         if (event.kind == EventKind::session &&
             !problems.need(event.text("plan") == file_hash(plan),
                            "the plan was changed after the session began", plan.string(),

@@ -32,26 +32,19 @@ class SessionRun {
     SessionResult run() {
         begin();
         OffGuard off({hardware_.lamp, hardware_.shutter});
+        std::exception_ptr failure;
         try {
             if (!session_.missing.empty())
                 work();
-        } catch (const SessionFault &fault) {
-            off.drive_off();
-            end_by(fault);
-            throw;
-        } catch (const Interrupted &) {
-            off.drive_off();
-            leave("stopped");
-            throw;
         } catch (...) {
-            off.drive_off();
-            leave("ended by an error");
-            throw;
+            failure = std::current_exception();
         }
-        const std::vector<Problem> still_on = off.drive_off();
-        leave("finished");
+        std::vector<Problem> still_on = off.drive_off(); // before anything else
+        end(failure, still_on);
         if (!still_on.empty())
-            throw Error(still_on);
+            throw Error(std::move(still_on));
+        if (failure)
+            std::rethrow_exception(failure);
         return {.planned = session_.plan.frames.size(), .counted = counted_};
     }
 
@@ -65,6 +58,7 @@ class SessionRun {
     std::optional<double> take(const Shot &shot);
     bool attempt(std::optional<std::size_t> number, const std::function<void()> &step);
     void recover_from(std::optional<std::size_t> number, const Error &error, int tried);
+    void end(const std::exception_ptr &failure, std::vector<Problem> &still_on);
     void end_by(const SessionFault &fault);
     void leave(const std::string &how);
 
@@ -215,7 +209,26 @@ void SessionRun::warm_up() {
         false);
 }
 
-/// Lamp and shutter are off. What can still be written is.
+/// Lamp and shutter are off, or may still be on: then the failure's problems follow.
+void SessionRun::end(const std::exception_ptr &failure, std::vector<Problem> &still_on) {
+    if (!failure)
+        return leave("finished");
+    try {
+        std::rethrow_exception(failure);
+    } catch (const SessionFault &fault) {
+        end_by(fault);
+        if (!still_on.empty())
+            still_on.push_back(fault.problems().front());
+    } catch (const Interrupted &) {
+        leave("stopped");
+    } catch (const std::exception &error) {
+        leave("ended by an error");
+        if (!still_on.empty())
+            still_on.push_back({.what = error.what()});
+    }
+}
+
+/// What can still be written is.
 void SessionRun::end_by(const SessionFault &fault) {
     const Problem &problem = fault.problems().front();
     if (fault.safety() && !settings_.fault_log.empty())

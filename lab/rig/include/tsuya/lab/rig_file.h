@@ -90,6 +90,7 @@ struct RigAxis {
     std::vector<std::string> command{}; ///< with the placeholders `{axis}` and `{deg}`
     std::string port{};                 ///< of the controller: `/dev/ttyUSB0`
     char letter = 'X';                  ///< of the controller's axis
+    double feed_deg_per_min = 600;      ///< how fast the controller moves it
     Seconds timeout{60};                ///< of one movement
     double zero_deg = 0;                ///< position of the drive at the angle 0
     int sign = 1;                       ///< -1: the drive's positions fall as the angle grows

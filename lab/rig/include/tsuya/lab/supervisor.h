@@ -45,6 +45,8 @@ class Worker {
     /// Sends a message of at most kMaxMessage bytes to the calling process.
     void send(std::string_view message);
     static constexpr std::size_t kMaxMessage = 2048;
+    /// Says which process group a command of the work runs in, to be killed with the work; 0: none.
+    void command_group(int group);
     /// Reports to the caller's progress; its stop flag is set when the caller's is, or when the
     /// calling process is gone.
     Progress progress();
@@ -69,10 +71,11 @@ class Worker {
 };
 
 /// Runs `work` in a child process that shares the lines, and watches it. When it is silent, ends,
-/// or `progress.stop` is set, the lines are driven off at once; then the child's process group is
-/// killed (after a stop it has kStopGrace to end by itself, with its lines held off), and the lines
-/// are driven off once more, since the child could have set them in between. A line whose device is
-/// gone ends the work within a second. If the calling process is killed, the work stops by itself.
+/// or `progress.stop` is set, the lines are driven off at once; then the process groups of the
+/// child and of its command are killed (after a stop it has kStopGrace to end by itself, with its
+/// lines held off), and the lines are driven off once more, since the child could have set them in
+/// between. A line whose device is gone ends the work within a second. If the calling process is
+/// killed, the work stops by itself.
 ///
 /// Take the lines before the call. The child's other changes to memory are lost: what the caller is
 /// to know goes through Worker::send. `progress.report` is called in the calling process and must

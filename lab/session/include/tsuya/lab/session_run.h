@@ -13,9 +13,10 @@ namespace tsuya::lab {
 
 /// What a session works with. All of it must outlive the run.
 struct SessionHardware {
-    OutputLine *lamp = nullptr;    ///< null: someone switches it by hand
-    OutputLine *shutter = nullptr; ///< null: the camera's own is the only one
-    InputLine *busy = nullptr;     ///< of the camera
+    OutputLine *lamp = nullptr;       ///< null: someone switches it by hand
+    OutputLine *shutter = nullptr;    ///< null: the camera's own is the only one
+    OutputLine *half_press = nullptr; ///< wakes the camera before each exposure
+    InputLine *busy = nullptr;        ///< of the camera
     Mechanics &mechanics;
     FrameCamera &camera;
     SafetyClock &clock;
