@@ -1,6 +1,8 @@
 #include "tsuya/sdk/document.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -119,10 +121,9 @@ std::optional<double> Section::number(std::string_view key, double low, double h
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (value && std::isfinite(*value) && *value >= low && *value <= high)
         return value;
-    const auto shown = [](double v) {
-        std::string s = std::to_string(v);
-        s.erase(std::max(s.find_last_not_of('0'), s.find('.') + 1) + 1);
-        return s;
+    const auto shown = [](double v) { // the shortest text that is this number
+        std::array<char, 32> text{};
+        return std::string(text.data(), std::to_chars(text.begin(), text.end(), v).ptr);
     };
     std::string accepted = "expected a number";
     if (low > -1e300 && high < 1e300)

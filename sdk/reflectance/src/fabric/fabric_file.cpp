@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <locale>
 #include <sstream>
 
@@ -12,6 +13,7 @@
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/model.h"
+#include "tsuya/sdk/text.h"
 
 namespace tsuya {
 namespace {
@@ -24,13 +26,16 @@ Spectrum read_spectrum(const Section &section, const Field &field, const Spectru
     const auto inner = section.section(field.key);
     if (!inner)
         return otherwise;
-    if (const auto constant = inner->number("constant", field.low, field.high))
-        return Spectrum::constant(*constant);
-    Spectrum spectrum = otherwise;
-    if (const auto wavelengths = inner->numbers("wavelength_nm"))
-        spectrum.wavelength_nm = *wavelengths;
-    if (const auto values = inner->numbers("value"))
-        spectrum.value = *values;
+    if (inner->has("constant"))
+        return Spectrum::constant(
+            inner->number("constant", field.low, field.high).value_or(field.low));
+    const auto wavelength_nm = inner->numbers("wavelength_nm"), value = inner->numbers("value");
+    if (!inner->has("wavelength_nm") || !inner->has("value"))
+        inner->problem("", "the spectrum is not complete",
+                       "expected constant, or wavelength_nm and value");
+    if (!wavelength_nm || !value)
+        return otherwise;
+    const Spectrum spectrum{*wavelength_nm, *value};
     try {
         check_spectrum(spectrum, field.low, field.high, "");
     } catch (const Error &error) {
@@ -176,6 +181,7 @@ class SpecularReader {
                              "expected one of them");
         if (const auto table = root.text("table"))
             table_ = {read_reflectance_table(file.parent_path() / *table), *table};
+        check_company(root);
     }
 
     // Fits the views, and makes what the model is made of the specular part.
@@ -203,6 +209,22 @@ class SpecularReader {
     }
 
   private:
+    // What would say nothing.
+    void check_company(const Section &root) const {
+        if (!root.has("views"))
+            for (const char *const key : {"symmetry", "smoothness"})
+                if (root.has(key))
+                    root.problem(key, std::string(key) + " stands without [views]",
+                                 "expected [views], or no such key");
+        if (model_ || root.has("views") || root.has("yarn"))
+            return;
+        for (const char *const key : {"ggx", "table"})
+            if (root.has(key))
+                root.problem(key, "no model is named that is made of '" + std::string(key) + "'",
+                             key == std::string("ggx") ? "expected model = \"ggx\""
+                                                       : "expected model = \"tabulated\"");
+    }
+
     std::filesystem::path file_;
     std::optional<std::string> model_;
     std::string model_place_;
@@ -221,15 +243,19 @@ void write_numbers(std::ostream &out, std::string_view key, const std::vector<do
     out << "]\n";
 }
 
-// A TOML basic string.
+// A TOML basic string. Bytes that are not UTF-8 are written as decode_text shows them.
 std::string quoted(const std::string &text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            result += '\\';
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    std::ostringstream out;
+    out << '"' << std::hex << std::setfill('0');
+    for (const char c : decode_text(text, "")) {
+        const int code = static_cast<unsigned char>(c);
+        if (code < 0x20 || code == 0x7f)
+            out << "\\u" << std::setw(4) << code;
+        else
+            out << (c == '"' || c == '\\' ? "\\" : "") << c;
     }
-    return result + '"';
+    out << '"';
+    return out.str();
 }
 
 // Writes the fields of a struct as the lines of a section.
