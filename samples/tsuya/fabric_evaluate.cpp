@@ -1,13 +1,13 @@
 // tsuya fabric evaluate: how far the models of a fabric lie from a table.
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
 
 #include "command.h"
 #include "json_file.h"
+#include "table_input.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/file.h"
@@ -47,7 +47,12 @@ struct FabricEvaluate final : Command {
             scene::check_output_file(values_file, {".csv"});
         const Progress progress = console.progress();
         const Fabric fabric = read_fabric(fabric_file, progress);
-        const ReflectanceTable table = read_reflectance_table(table_file);
+        const ReflectanceTable table = read_single_table(table_file, console);
+        const TableAccuracy against(table, progress);
+        if (against.only_from_above())
+            console.warning(table_file.string() +
+                            ": all light is from straight above, where models that were fitted to "
+                            "such views are better than under other light");
         if (fabric.colours.dye.any_above_zero())
             console.warning(fabric_file.string() + ": the fabric has a dye, which is not compared");
         std::vector<std::string> models{model_name.empty() ? std::string(model_of(fabric))
@@ -60,13 +65,13 @@ struct FabricEvaluate final : Command {
         std::vector<BrdfFunction> functions;
         for (const std::string &model : models) {
             functions.push_back(make_model(model, fabric, fabric_file.string(), progress));
-            results.push_back({model, measure_accuracy(table, functions.back(), progress)});
+            results.push_back({model, against.of(functions.back(), progress)});
             progress("models",
                      static_cast<double>(results.size()) / static_cast<double>(models.size()));
         }
         if (!values_file.empty())
             write_values(table, models, functions);
-        json ? print_json(results) : print_text(results);
+        json ? print_json(results, against.only_from_above()) : print_text(results);
         return kDone;
     }
 
@@ -76,28 +81,23 @@ struct FabricEvaluate final : Command {
         out << "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr";
         for (const std::string &model : models)
             out << "," << model;
-        const auto direction = [](double theta, double phi) {
-            return glm::dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                              std::max(std::cos(theta), 0.0));
-        };
         for (const ReflectanceRow &row : table.rows) {
             out << "\n"
                 << degrees_of(row.theta_i) << "," << degrees_of(row.phi_i) << ","
                 << degrees_of(row.theta_r) << "," << degrees_of(row.phi_r) << ","
                 << row.brdf_per_sr;
             for (const BrdfFunction &function : functions)
-                out << ","
-                    << function(direction(row.theta_i, row.phi_i),
-                                direction(row.theta_r, row.phi_r));
+                out << "," << function(row.to_light(), row.to_viewer());
         }
         out << "\n";
         write_file(values_file, out.str());
     }
 
-    void print_json(const std::vector<Result> &results) const {
+    void print_json(const std::vector<Result> &results, bool only_from_above) const {
         Json numbers{{"schema", "tsuya-fabric-evaluate 1"},
                      {"fabric", fabric_file.string()},
                      {"table", table_file.string()},
+                     {"only_light_from_above", only_from_above},
                      {"results", Json::array()}};
         for (const Result &result : results) {
             Json directions = Json::array();

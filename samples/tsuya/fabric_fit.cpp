@@ -6,8 +6,11 @@
 
 #include "command.h"
 #include "json.h"
+#include "table_input.h"
+#include "tsuya/color/upsample.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/dye_separation.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/feature_points.h"
@@ -38,25 +41,32 @@ struct FabricFit final : Command {
                 "theta_r_deg, phi_r_deg (towards the viewer), brdf_per_sr (without the cosine) and "
                 "optionally sigma_per_sr (its standard error). theta is counted from the normal, "
                 "phi from the weft. A line `# symmetry: orthotropic`, `half-turn` or `none` before "
-                "them declares the symmetry.\n"
+                "them declares the symmetry. Columns brdf_r, brdf_g, brdf_b or such as brdf_550nm "
+                "in place of brdf_per_sr are those of a dyed cloth, whose dye is told apart.\n"
                 "The residual of each fitted row is printed. Rows under oblique light are compared "
                 "with the fabric's model; --use all fits the model yarn to them as well.");
     }
 
     Status run(Console &console) override {
         scene::check_output_file(output, {".toml"});
-        const ReflectanceTable table = read_reflectance_table(table_file);
+        const ReflectanceFile read = read_table(table_file, console);
+        const Progress progress = console.progress();
+        const std::optional<DyedCloth> dyed = separated(read, progress);
+        const ReflectanceTable &table = dyed ? dyed->surface : read.channels.front().table;
         if (!table.symmetry_declared)
             console.warning(table_file.string() +
                             ": the symmetry is not declared, orthotropic is assumed; "
                             "declare it by a line such as `# symmetry: half-turn`");
-        const Progress progress = console.progress();
         const CarriedViews views{.bard = Bard::fit(table, table_file.string(), progress), .f0 = f0};
         const Bard &bard = views.bard;
         Fabric fabric{.name = name.empty() ? table_file.stem().string() : name,
                       .keys = table.keys,
                       .specular = views};
-        Report report{.bard = bard};
+        if (dyed) {
+            fabric.colours.dye = spectrum_of(read, dyed->reflectance);
+            fabric.colours.delustre = 1; // the diffuser that it was separated as
+        }
+        Report report{.bard = bard, .channels = body_of(read, dyed)};
         if (use == "all") {
             if (const auto brdf = make_brdf(fabric, "fabric", progress))
                 report.before = oblique(table, *brdf, progress);
@@ -75,6 +85,45 @@ struct FabricFit final : Command {
         return kDone;
     }
 
+    // None where the table has no channels.
+    std::optional<DyedCloth> separated(const ReflectanceFile &read,
+                                       const Progress &progress) const {
+        if (read.channels.size() == 1)
+            return std::nullopt;
+        if (use == "all")
+            throw Error({"--use all has no meaning for a table with channels", table_file.string(),
+                         "expected one column of values, brdf_per_sr"});
+        return separate_dye(read, table_file.string(), f0, progress);
+    }
+
+    // Of a value a channel: at wavelengths, or a smooth one of the colour.
+    Spectrum spectrum_of(const ReflectanceFile &read, const std::vector<double> &value) const {
+        if (read.channels.front().wavelength_nm) {
+            Spectrum spectrum{{}, value};
+            for (const TableChannel &channel : read.channels)
+                spectrum.wavelength_nm.push_back(*channel.wavelength_nm);
+            return spectrum;
+        }
+        glm::dvec3 colour{0};
+        for (std::size_t c = 0; c < value.size(); ++c)
+            colour[static_cast<int>(std::string_view("rgb").find(read.channels[c].name))] =
+                value[c];
+        return reflectance_of_srgb(colour, table_file.string());
+    }
+
+    // A channel of a dyed cloth: what its body reflects.
+    struct Channel {
+        std::string name{};
+        double reflectance = 0;
+    };
+    static std::vector<Channel> body_of(const ReflectanceFile &read,
+                                        const std::optional<DyedCloth> &dyed) {
+        std::vector<Channel> channels;
+        for (std::size_t c = 0; dyed && c < read.channels.size(); ++c)
+            channels.push_back({read.channels[c].name, dyed->reflectance[c]});
+        return channels;
+    }
+
     // Views under oblique light beside a model.
     struct Oblique {
         std::vector<ModelledView> views{};
@@ -83,6 +132,7 @@ struct FabricFit final : Command {
     };
     struct Report {
         const Bard &bard;
+        std::vector<Channel> channels{};
         double f0 = 1;
         std::optional<YarnLobes> yarn{}; // fitted to oblique light too
         Oblique before{}, after{};
@@ -147,6 +197,9 @@ struct FabricFit final : Command {
                       << p.theta / kDegree << std::setw(9) << p.phi / kDegree
                       << std::setprecision(6) << std::setw(13) << p.brdf_per_sr << std::setw(15)
                       << p.facets_per_sr << (p.extrapolated ? "  extrapolated" : "") << "\n";
+        for (const Channel &channel : report.channels)
+            std::cout << std::setprecision(4) << "body of channel " << channel.name << ": reflects "
+                      << channel.reflectance << "\n";
         print_oblique(report);
     }
 
@@ -189,6 +242,8 @@ struct FabricFit final : Command {
                      {"feature_points", Json::array()},
                      {"misfits", Json::array()},
                      {"views", Json::array()}};
+        if (!report.channels.empty())
+            numbers["body"] = Json::array();
         for (const FeaturePoint &p : feature_points(bard, report.f0))
             numbers["feature_points"].push_back({{"name", p.name},
                                                  {"theta_deg", p.theta / kDegree},
@@ -208,6 +263,9 @@ struct FabricFit final : Command {
                  {"log10_ratio", log_ratio(view.fitted_per_sr, view.brdf_per_sr)}});
         if (!report.after.views.empty())
             numbers["oblique"] = json_of_oblique(report);
+        for (const Channel &channel : report.channels)
+            numbers["body"].push_back(
+                {{"channel", channel.name}, {"reflectance", channel.reflectance}});
         std::cout << numbers.text() << "\n";
     }
 

@@ -13,6 +13,7 @@
 
 #include "command.h"
 #include "json_file.h"
+#include "paper_ring.h"
 #include "tsuya/sdk/angle.h"
 
 namespace tsuya::program {
@@ -122,7 +123,8 @@ struct FabricPaper final : Command {
         o.flag("--json", &json, "print the tables as JSON");
         o.example("tsuya fabric paper");
         o.notes("Tables 1-3 of Takeda, Sakaguchi and Tanaka for their black satin: measured, their "
-                "estimate, and Eq. 7 as it stands.");
+                "estimate, and Eq. 7 as it stands. Table 4: errors of their estimates, and of ours "
+                "for a cloth that is known exactly.");
     }
 
     Status run(Console &) override {
@@ -152,12 +154,30 @@ struct FabricPaper final : Command {
             }
             std::cout << table.note << "\n\n";
         }
+        print_ring_errors();
         std::cout << "Views that are measured at a spacing of n degrees, and what that saves\n"
                   << "n_deg  normal_incidence  every_light  times_fewer\n";
         for (const Count &count : counts())
             std::cout << std::setprecision(1) << std::setw(5) << count.spacing_deg
                       << std::setprecision(0) << std::setw(18) << count.views << std::setw(13)
                       << count.all << std::setw(13) << count.all / count.views << "\n";
+    }
+
+    static void print_ring_errors() {
+        std::cout
+            << "Table 4, errors under light at theta_i = 45 deg on the ring theta_r = 60 deg, "
+               "mean over phi_r in % of the largest value\n"
+            << "plane  paper_peak_per_sr  paper_peak_%  paper_mean_%  ours_peak_%  "
+               "ours_mean_%  printed_mean_%\n";
+        for (const RingErrors &ring : ring_errors())
+            std::cout << std::setw(5) << ring.plane << std::setprecision(2) << std::setw(19)
+                      << ring.paper_peak_per_sr << std::setprecision(1) << std::setw(14)
+                      << ring.paper_peak_per_cent << std::setprecision(2) << std::setw(14)
+                      << ring.paper_mean_per_cent << std::setprecision(1) << std::setw(13)
+                      << ring.ours.peak_per_cent << std::setprecision(2) << std::setw(13)
+                      << ring.ours.mean_per_cent << std::setw(16) << ring.printed.mean_per_cent
+                      << "\n";
+        std::cout << kRingNote << "\n\n";
     }
 
     static void print_json() {
@@ -182,6 +202,18 @@ struct FabricPaper final : Command {
                                          {"note", table.note},
                                          {"rows", std::move(rows)}});
         }
+        numbers["ring_note"] = kRingNote;
+        numbers["ring_errors"] = Json::array();
+        for (const RingErrors &ring : ring_errors())
+            numbers["ring_errors"].push_back(
+                {{"plane", ring.plane},
+                 {"paper_peak_per_sr", ring.paper_peak_per_sr},
+                 {"paper_peak_per_cent", ring.paper_peak_per_cent},
+                 {"paper_mean_per_cent", ring.paper_mean_per_cent},
+                 {"ours_peak_per_cent", ring.ours.peak_per_cent},
+                 {"ours_mean_per_cent", ring.ours.mean_per_cent},
+                 {"printed_peak_per_cent", ring.printed.peak_per_cent},
+                 {"printed_mean_per_cent", ring.printed.mean_per_cent}});
         for (const Count &count : counts())
             numbers["measurements"].push_back({{"spacing_deg", count.spacing_deg},
                                                {"normal_incidence", count.views},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command.h"
+#include "table_input.h"
 #include "tsuya/color/srgb.h"
 #include "tsuya/lab/weave_picture.h"
 #include "tsuya/scene/body_plot.h"
@@ -81,18 +82,18 @@ struct FabricShow final : Command {
 
     Status run(Console &console) override {
         scene::check_output_file(output, {".svg", ".png"});
-        weave_name.empty() ? show_fabric() : show_weave(console);
+        weave_name.empty() ? show_fabric(console) : show_weave(console);
         std::cout << output.string() << "\n";
         return kDone;
     }
 
-    void show_fabric() const {
+    void show_fabric(Console &console) const {
         refuse_unused();
         scene::RingPlot plot{.fabric = read_fabric(fabric), .models = models};
         if (plot.models.empty())
             plot.models = {std::string(model_of(plot.fabric))};
         if (!table.empty())
-            plot.against = read_reflectance_table(table);
+            plot.against = read_single_table(table, console);
         plot.theta_i = theta_i_deg.value_or(45) * kDegree;
         if (view == "lobes")
             scene::plot_lobes({plot.fabric, plot.models.front(), plot.against}, output);

@@ -14,6 +14,7 @@
 #include "tsuya/lab/goniometer.h"
 #include "tsuya/lab/weave_geometry.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/reflectance_file.h"
 #include "weave_name.h"
 
 namespace tsuya::program {

@@ -13,7 +13,7 @@
 #include "samples/scratch.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/data_folder.h"
-#include "tsuya/sdk/reflectance_table.h"
+#include "tsuya/sdk/reflectance_file.h"
 
 namespace tsuya::program {
 namespace {

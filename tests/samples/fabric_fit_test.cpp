@@ -10,6 +10,7 @@
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/fabric.h"
+#include "tsuya/sdk/reflectance_file.h"
 
 namespace tsuya::program {
 namespace {

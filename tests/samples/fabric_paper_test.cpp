@@ -56,6 +56,24 @@ TEST(FabricPaper, PrintsEquation7AsItStands) {
     EXPECT_TRUE(found);
 }
 
+// Table 4 as printed, and ours: the great-circle form is nearer than the printed one.
+TEST(FabricPaper, PrintsTheErrorsOnTheRing) {
+    const Scratch scratch;
+    const Outcome done = run_program({"fabric", "paper", "--json"}, scratch.folder());
+    ASSERT_EQ(done.status, 0) << done.err;
+    const json rings = json::parse(done.out).at("ring_errors");
+    ASSERT_EQ(rings.size(), 3u);
+    const double paper[3][3] = {{0.44, 20.7, 7.60}, {1.17, 13.4, 6.35}, {0, 0, 7.84}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(rings[i].at("plane"), (std::vector{"weft", "bias", "warp"})[i]);
+        EXPECT_EQ(rings[i].at("paper_peak_per_sr"), paper[i][0]);
+        EXPECT_EQ(rings[i].at("paper_peak_per_cent"), paper[i][1]);
+        EXPECT_EQ(rings[i].at("paper_mean_per_cent"), paper[i][2]);
+        EXPECT_GT(rings[i].at("ours_mean_per_cent"), 0.5);
+        EXPECT_LT(rings[i].at("ours_mean_per_cent"), rings[i].at("printed_mean_per_cent"));
+    }
+}
+
 TEST(FabricPaper, ExplainsTheDifferencesInText) {
     const Scratch scratch;
     const Outcome done = run_program({"fabric", "paper"}, scratch.folder());
@@ -63,6 +81,7 @@ TEST(FabricPaper, ExplainsTheDifferencesInText) {
     EXPECT_NE(done.out.find("Fresnel term of Eq. 7 was left out"), std::string::npos);
     EXPECT_NE(done.out.find("Table 3, middle plane Fxz"), std::string::npos);
     EXPECT_NE(done.out.find("1296"), std::string::npos);
+    EXPECT_NE(done.out.find("Table 4, errors under light"), std::string::npos);
 }
 
 } // namespace

@@ -180,7 +180,7 @@ TEST(Accuracy, OfAHandfulByHand) {
 
 TEST(Accuracy, TellsWhatATableCannot) {
     ReflectanceTable table{.symmetry = Symmetry::none};
-    add_light(table, 45, 0, 7, 30);                   // no ring at 60
+    add_light(table, 45, 0, 25, 30);                  // no ring near 60
     table.rows.push_back({kPi / 3, 0, 0, 0, 0.0, 0}); // a light under which nothing is seen
     const Accuracy accuracy =
         measure_accuracy(table, [](const auto &, const auto &) { return 0.0; });
@@ -193,6 +193,72 @@ TEST(Accuracy, TellsWhatATableCannot) {
         EXPECT_FALSE(accuracy.directions[1].error.*measure.value) << measure.name;
     EXPECT_NEAR(accuracy.mean.l2_cos.value(), 1, 1e-12); // the blind direction has no vote
     EXPECT_FALSE(accuracy.mean.ring_over_peak);
+}
+
+// Rings at 56 and 63 degrees: what is between them is four sevenths of the way.
+TEST(Accuracy, InterpolatesTheRingAt60Degrees) {
+    ReflectanceTable table{.symmetry = Symmetry::none};
+    add_light(table, 45, 0, 7, 30);
+    double sum = 0, peak = 0;
+    for (const ReflectanceRow &row : table.rows)
+        peak = std::max(peak, row.brdf_per_sr);
+    for (double phi = 0; phi < 360; phi += 30) {
+        const double below = lobe(direction(45, 0), direction(56, phi));
+        const double above = lobe(direction(45, 0), direction(63, phi));
+        sum += below * 3 / 7 + above * 4 / 7;
+    }
+    const auto black = [](const auto &, const auto &) { return 0.0; };
+    const auto ring = [&] { return measure_accuracy(table, black).mean.ring_over_peak; };
+    EXPECT_NEAR(ring().value(), sum / 12 / peak, 1e-12);
+    EXPECT_LT(measure_accuracy(table, lobe).mean.ring_over_peak.value(), 1e-15);
+
+    // Azimuths of the outer ring between those of the inner: linear in azimuth too
+    for (ReflectanceRow &row : table.rows)
+        row.brdf_per_sr = row.theta_r > kPi / 3 ? row.phi_r : 1;
+    for (ReflectanceRow &row : table.rows)
+        row.phi_r += row.theta_r > kPi / 3 ? 15 * kDegree : 0.0;
+    double turned = 0;
+    for (int i = 0; i < 12; ++i) // half way between neighbours, of the first and the last too
+        turned += 3.0 / 7 + 4.0 / 7 * (i == 0 ? 165 : i * 30 - 15) * kDegree;
+    EXPECT_NEAR(ring().value(), turned / 12 / (330 * kDegree), 1e-12);
+
+    // A view within half a degree of 60 is on the ring
+    table.rows.push_back({45 * kDegree, 0, 60.4 * kDegree, 0, 0.5, 0});
+    EXPECT_NEAR(ring().value(), 0.5 / (330 * kDegree), 1e-12);
+}
+
+TEST(Accuracy, SaysWhereAllLightIsFromAbove) {
+    ReflectanceTable table{.symmetry = Symmetry::none};
+    add_light(table, 0.3, 20);
+    EXPECT_TRUE(TableAccuracy(table).only_from_above());
+    add_light(table, 30, 20);
+    EXPECT_FALSE(TableAccuracy(table).only_from_above());
+}
+
+TEST(SolidAngles, AreThoseOfTheNearestViews) {
+    // Views in clusters and voids, against a search through all of them
+    std::mt19937 random(kSeed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::vector<glm::dvec3> views;
+    for (int i = 0; i < 60; ++i)
+        views.push_back(direction(i % 3 ? 90 * uniform(random) : 88 + uniform(random),
+                                  i % 2 ? 360 * uniform(random) : 10 * uniform(random)));
+    std::vector<double> expected(views.size(), 0.0);
+    constexpr int kRings = 150, kParts = 600;
+    for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kParts; ++j) {
+            const double cosine = (i + 0.5) / kRings;
+            const glm::dvec3 d = direction(std::acos(cosine) / kDegree, 360 * (j + 0.5) / kParts);
+            const auto nearest = std::max_element(views.begin(), views.end(),
+                                                  [&](const glm::dvec3 &a, const glm::dvec3 &b) {
+                                                      return glm::dot(a, d) < glm::dot(b, d);
+                                                  });
+            expected[static_cast<std::size_t>(nearest - views.begin())] +=
+                2 * kPi / (kRings * kParts);
+        }
+    const std::vector<double> area = solid_angles(views, {0, 0, 1}, Symmetry::none);
+    for (std::size_t i = 0; i < views.size(); ++i)
+        EXPECT_NEAR(area[i], expected[i], 4e-3) << i;
 }
 
 TEST(Accuracy, RefusesWhatCannotBeCompared) {

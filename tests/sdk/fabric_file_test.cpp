@@ -15,6 +15,7 @@
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/model.h"
+#include "tsuya/sdk/reflectance_file.h"
 
 namespace tsuya::test {
 namespace {

@@ -1,6 +1,6 @@
 // TABLE.csv: what is written is read back, and what is wrong is told with its place.
 
-#include "tsuya/sdk/reflectance_table.h"
+#include "tsuya/sdk/reflectance_file.h"
 
 #include <cmath>
 
@@ -15,11 +15,11 @@
 namespace tsuya::test {
 namespace {
 
-using ReflectanceFile = FilesTest;
+using TableFile = FilesTest;
 
 const std::string kHeader = "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr\n";
 
-TEST_F(ReflectanceFile, IsReadBackAsWritten) {
+TEST_F(TableFile, IsReadBackAsWritten) {
     for (const Symmetry symmetry : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
         for (const bool sigma : {false, true}) {
             ReflectanceTable table = normal_table(satin_cloth(), even_grid(10, 30));
@@ -47,7 +47,7 @@ TEST_F(ReflectanceFile, IsReadBackAsWritten) {
         }
 }
 
-TEST_F(ReflectanceFile, CommentsBlanksAndCarriageReturnsAreTolerated) {
+TEST_F(TableFile, CommentsBlanksAndCarriageReturnsAreTolerated) {
     const auto name =
         file("t.csv", "# a note\r\n#key :  a: b \r\n\r\n" + kHeader.substr(0, kHeader.size() - 1) +
                           "\r\n 0, 0 ,30,-360,0.5\r\n# late\n0,0,90,360,1e-3");
@@ -60,7 +60,7 @@ TEST_F(ReflectanceFile, CommentsBlanksAndCarriageReturnsAreTolerated) {
     EXPECT_FALSE(table.symmetry_declared);
 }
 
-TEST_F(ReflectanceFile, BadOnesAreRefusedWithLineAndColumn) {
+TEST_F(TableFile, BadOnesAreRefusedWithLineAndColumn) {
     struct Bad {
         std::string text, where;
     };
@@ -71,7 +71,7 @@ TEST_F(ReflectanceFile, BadOnesAreRefusedWithLineAndColumn) {
              {"theta_i_deg,phi_i_deg,theta_r_deg,brdf_per_sr\n" + good, ":1:1"},
              {good, ":1:1"},
              {kHeader + "0,0,30,0\n", ":2:9"},
-             {kHeader + "0,0,30,0,0.5,0.1\n", ":2:13"},
+             {kHeader + "0,0,30,0,0.5,0.1\n", ":2:14"},
              {kHeader + good + "0,0,x,0,0.5\n", ":3:5"},
              {kHeader + "0,0,30,0,nan\n", ":2:10"},
              {kHeader + "0,0,30,0,inf\n", ":2:10"},
@@ -91,13 +91,13 @@ TEST_F(ReflectanceFile, BadOnesAreRefusedWithLineAndColumn) {
     }
 }
 
-TEST_F(ReflectanceFile, AWrongSymmetryHasASuggestion) {
+TEST_F(TableFile, AWrongSymmetryHasASuggestion) {
     const auto name = file("t.csv", "# symmetry: half-trun\n" + kHeader + "0,0,30,0,0.5\n");
     EXPECT_NE(problems_of(read_reflectance_table, name)[0].accepted.find("did you mean half-turn?"),
               std::string::npos);
 }
 
-TEST_F(ReflectanceFile, ProblemsAreCollectedUpToTwenty) {
+TEST_F(TableFile, ProblemsAreCollectedUpToTwenty) {
     std::string text = kHeader;
     for (int i = 0; i < 30; ++i)
         text += "0,0,95,0,0.5\n";

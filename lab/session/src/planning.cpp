@@ -3,6 +3,7 @@
 #include "tsuya/lab/rig_motion.h"
 #include "tsuya/lab/session.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/reflectance_file.h"
 #include "view_order.h"
 
 #include <algorithm>

@@ -82,8 +82,10 @@ glm::dvec3 direction(double theta, double phi) {
 double turn(double a, double b) { return std::remainder(a - b, 2 * kPi); }
 
 bool has_light(const ReflectanceRow &row, double theta_i, double phi_i) {
+    if (row.from_above())
+        return theta_i <= kNormalLight;
     return std::abs(row.theta_i - theta_i) < kSameAngle &&
-           (theta_i < kSameAngle || std::abs(turn(row.phi_i, phi_i)) < kSameAngle);
+           std::abs(turn(row.phi_i, phi_i)) < kSameAngle;
 }
 
 std::string number(double value) { return written(value, 6); }

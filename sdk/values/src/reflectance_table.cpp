@@ -15,16 +15,6 @@
 namespace tsuya {
 namespace {
 
-constexpr std::array<std::string_view, 6> kColumns = {"theta_i_deg", "phi_i_deg",   "theta_r_deg",
-                                                      "phi_r_deg",   "brdf_per_sr", "sigma_per_sr"};
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos)
-        return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 // As %g of the C locale, whatever the locale is.
 std::string number_text(double value, int digits) {
     std::array<char, 32> text{};
@@ -32,135 +22,6 @@ std::string number_text(double value, int digits) {
                                    std::chars_format::general, digits);
     return {text.data(), end.ptr};
 }
-
-// Reads the lines of a table and remembers where it is, for errors.
-class TableReader {
-  public:
-    explicit TableReader(const std::filesystem::path &file)
-        : name_(file.string()), text_(read_file(file)) {
-        table_.symmetry_declared = false;
-    }
-
-    ReflectanceTable read() {
-        std::string_view rest = text_;
-        while (!rest.empty() && !problems_.full()) {
-            const std::string_view line = rest.substr(0, rest.find('\n'));
-            rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-            ++line_;
-            read_line(line);
-        }
-        if (problems_.empty() && table_.rows.empty())
-            problem("the table has no row", 1, "expected rows below the header line " + header());
-        problems_.throw_if_any();
-        return std::move(table_);
-    }
-
-  private:
-    void read_line(std::string_view line) {
-        const std::string_view content = trimmed(line);
-        if (content.empty())
-            return;
-        if (content.front() == '#')
-            read_key(trimmed(content.substr(1)));
-        else if (!seen_header_)
-            read_header(content);
-        else
-            read_row(line);
-    }
-
-    void read_key(std::string_view content) {
-        const auto colon = content.find(':');
-        if (colon == std::string_view::npos)
-            return;
-        const std::string key(trimmed(content.substr(0, colon)));
-        const std::string value(trimmed(content.substr(colon + 1)));
-        if (key != "symmetry") {
-            table_.keys[key] = value;
-            return;
-        }
-        for (const Symmetry s : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
-            if (value == name_of(s)) {
-                table_.symmetry = s;
-                table_.symmetry_declared = true;
-                return;
-            }
-        const std::array<std::string, 3> known = {"orthotropic", "half-turn", "none"};
-        problem("unknown symmetry '" + value + "'", 1, accepted_names(value, known));
-    }
-
-    void read_header(std::string_view content) {
-        seen_header_ = true;
-        const std::string full = header();
-        const std::string without_sigma = full.substr(0, full.rfind(','));
-        if (content == full)
-            columns_ = 6;
-        else if (content == without_sigma)
-            columns_ = 5;
-        else
-            problem("the header line is '" + std::string(content) + "'", 1,
-                    "expected " + without_sigma + "[,sigma_per_sr]");
-    }
-
-    void read_row(std::string_view line) {
-        std::array<double, 6> value{};
-        std::size_t begin = 0;
-        for (std::size_t c = 0; c < columns_; ++c) {
-            const std::size_t end = std::min(line.find(',', begin), line.size());
-            const std::optional<double> v = number(line.substr(begin, end - begin), begin + 1, c);
-            if (!v)
-                return;
-            value[c] = *v;
-            const bool last = c + 1 == columns_;
-            if (last != (end == line.size())) {
-                problem("the row has " + std::string(last ? "more" : "fewer") + " than " +
-                            std::to_string(columns_) + " columns",
-                        end + 1, "expected " + header());
-                return;
-            }
-            begin = end + 1;
-        }
-        table_.rows.push_back({value[0] * kDegree, value[1] * kDegree, value[2] * kDegree,
-                               value[3] * kDegree, value[4], value[5]});
-    }
-
-    std::optional<double> number(std::string_view field, std::size_t column, std::size_t c) {
-        const std::string_view content = trimmed(field);
-        double v = 0;
-        const auto [end, code] =
-            std::from_chars(content.data(), content.data() + content.size(), v);
-        const std::string shown = std::string(kColumns[c]) + " is '" + std::string(content) + "'";
-        if (code != std::errc{} || end != content.data() + content.size() || !std::isfinite(v))
-            problem(shown, column, "expected a finite number");
-        else if (c >= 4 && v < 0)
-            problem(shown, column, "expected a number not below 0");
-        else if ((c == 0 || c == 2) && !(v >= 0 && v <= 90))
-            problem(shown, column, "expected an angle from the normal of 0 to 90 degrees");
-        else if ((c == 1 || c == 3) && !(std::abs(v) <= 360))
-            problem(shown, column, "expected an angle from the weft of -360 to 360 degrees");
-        else
-            return v;
-        return std::nullopt;
-    }
-
-    static std::string header() {
-        std::string text;
-        for (const std::string_view column : kColumns)
-            text += (text.empty() ? "" : ",") + std::string(column);
-        return text;
-    }
-
-    void problem(std::string what, std::size_t column, std::string accepted) {
-        problems_.add({std::move(what),
-                       name_ + ":" + std::to_string(line_) + ":" + std::to_string(column),
-                       std::move(accepted)});
-    }
-
-    std::string name_, text_;
-    ReflectanceTable table_;
-    Problems problems_;
-    std::size_t line_ = 0, columns_ = 0;
-    bool seen_header_ = false;
-};
 
 } // namespace
 
@@ -184,7 +45,7 @@ ReflectanceTable ReflectanceTable::normal_incidence() const {
     ReflectanceTable result{
         .keys = keys, .symmetry = symmetry, .symmetry_declared = symmetry_declared};
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(result.rows),
-                 [](const ReflectanceRow &r) { return r.theta_i < 1e-9; });
+                 [](const ReflectanceRow &r) { return r.from_above(); });
     return result;
 }
 
@@ -204,6 +65,16 @@ std::optional<Symmetry> likely_symmetry(const ReflectanceTable &table) {
     if (gap > 1.5 * kPi - kSlack)
         return Symmetry::orthotropic;
     return gap > kPi + kSlack ? std::optional(Symmetry::half_turn) : std::nullopt;
+}
+
+std::array<long long, 4> direction_key(const ReflectanceRow &row) {
+    constexpr double kPerRadian = 1e6; // angles nearer than 1e-6 are one
+    const auto whole = [](double angle) { return std::llround(angle * kPerRadian); };
+    const long long turn = whole(2 * kPi), theta_r = whole(row.theta_r);
+    const auto azimuth = [&](double phi) { return ((whole(phi) % turn) + turn) % turn; };
+    const bool oblique = !row.from_above();
+    return {oblique ? whole(row.theta_i) : 0, oblique ? azimuth(row.phi_i) : 0, theta_r,
+            theta_r > 0 ? azimuth(row.phi_r) : 0};
 }
 
 void check_table(const ReflectanceTable &table, const std::string &where) {
@@ -230,18 +101,13 @@ void check_table(const ReflectanceTable &table, const std::string &where) {
                    "expected angles from the normal of 0 to 90 degrees");
     }
     problems.throw_if_any();
-    const auto key = [](const ReflectanceRow &r) {
-        const auto rounded = [](double angle) { return std::lround(angle / 1e-6); };
-        return std::array{rounded(r.theta_i), r.theta_i > kSame ? rounded(r.phi_i) : 0,
-                          rounded(r.theta_r), r.theta_r > kSame ? rounded(r.phi_r) : 0};
-    };
     std::sort(sorted.begin(), sorted.end(),
-              [&](const auto &a, const auto &b) { return key(a) < key(b); });
+              [&](const auto &a, const auto &b) { return direction_key(a) < direction_key(b); });
     for (std::size_t i = 1; i < sorted.size(); ++i) {
         const ReflectanceRow &a = sorted[i - 1], &b = sorted[i];
         const double high = std::max(a.brdf_per_sr, b.brdf_per_sr);
         const double low = std::min(a.brdf_per_sr, b.brdf_per_sr);
-        if (key(a) == key(b) && high > kFactor * low &&
+        if (direction_key(a) == direction_key(b) && high > kFactor * low &&
             high - low > kSigmas * std::hypot(a.sigma_per_sr, b.sigma_per_sr))
             refuse(a,
                    "measured twice, " + number_text(a.brdf_per_sr, 6) + " and " +
@@ -249,10 +115,6 @@ void check_table(const ReflectanceTable &table, const std::string &where) {
                    "expected repeats within a factor of 2, or a sigma_per_sr that explains them");
     }
     problems.throw_if_any();
-}
-
-ReflectanceTable read_reflectance_table(const std::filesystem::path &file) {
-    return TableReader(file).read();
 }
 
 void write_reflectance_table(const ReflectanceTable &table, const std::filesystem::path &file) {

@@ -13,6 +13,7 @@
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/model.h"
+#include "tsuya/sdk/reflectance_file.h"
 #include "tsuya/sdk/text.h"
 
 namespace tsuya {

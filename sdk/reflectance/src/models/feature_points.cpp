@@ -10,7 +10,6 @@ namespace tsuya {
 namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
-constexpr double kOblique = 1e-9; // radians; below, light is from straight above
 
 double log_ratio(double fitted, double measured) { return std::abs(std::log10(fitted / measured)); }
 
@@ -74,7 +73,7 @@ std::vector<BardView> misfits(const Bard &bard) {
 std::vector<ModelledView> oblique_views(const ReflectanceTable &table, const BrdfFunction &model) {
     std::vector<ModelledView> views;
     for (const ReflectanceRow &row : table.rows)
-        if (row.theta_i >= kOblique)
+        if (!row.from_above())
             views.push_back({row, model(row.to_light(), row.to_viewer())});
     return views;
 }

@@ -41,8 +41,7 @@ constexpr std::array<double, 2> kDepthSteps = {0.05, 0.025}; // a dozen views re
 // trade it for slopes, and views on the side of the light would go dark
 constexpr double kLeastEven = 0.5;
 constexpr std::size_t kLeastOblique = 4;
-constexpr double kOblique = 1e-9; // radians; below, light is from straight above
-constexpr double kLowest = 1e-4;  // cosine; a view on the horizon weighs nothing
+constexpr double kLowest = 1e-4; // cosine; a view on the horizon weighs nothing
 
 using LightAngles = std::pair<double, double>; // theta_i, phi_i
 
@@ -52,7 +51,7 @@ std::map<LightAngles, std::vector<ReflectanceRow>> oblique_rows(const Reflectanc
     std::map<LightAngles, std::vector<ReflectanceRow>> lights;
     std::size_t count = 0;
     for (const ReflectanceRow &row : table.rows)
-        if (row.theta_i >= kOblique) {
+        if (!row.from_above()) {
             const double turn = 2 * kPi;
             lights[{row.theta_i, row.phi_i - turn * std::floor(row.phi_i / turn)}].push_back(row);
             ++count;

@@ -2,24 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include <tbb/parallel_for.h>
 
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "views/lights.h"
 #include "views/stop.h"
 
 namespace tsuya {
 namespace {
 
 constexpr double kRingTheta = 60 * kDegree; // of [Takeda] Figs. 26-27
-constexpr double kRingWidth = 0.01 * kDegree;
+constexpr double kRingWidth = 0.5 * kDegree;
+constexpr double kRingsApart = 20 * kDegree;    // of two that are interpolated between
+constexpr double kAzimuthsApart = 45 * kDegree; // of two views of a ring, the same
 constexpr double kHorizonCosine = 1e-9;
 constexpr double kLeastShareOfPeak = 0.001;
 constexpr double kPercentile = 0.95;
-constexpr double kAnglesPerRadian = 1e7; // light directions nearer than 1/this are one
 
 constexpr std::array<NamedMeasure, 6> kMeasures = {{
     {"mean_over_peak", &ErrorMeasures::mean_over_peak},
@@ -30,17 +31,11 @@ constexpr std::array<NamedMeasure, 6> kMeasures = {{
     {"noise_floor", &ErrorMeasures::noise_floor},
 }};
 
-// theta_i and phi_i of a row as whole numbers; every phi_i is one where theta_i is 0.
-std::pair<long long, long long> light_key(const ReflectanceRow &row) {
-    const auto whole = [](double angle) { return std::llround(angle * kAnglesPerRadian); };
-    const long long theta = whole(row.theta_i);
-    const long long turn = whole(2 * kPi);
-    return {theta, theta == 0 ? 0 : ((whole(row.phi_i) % turn) + turn) % turn};
-}
-
 // A row with what the model says.
 struct View {
-    double measured, sigma, model, theta, cosine, weight;
+    double measured, sigma, model, theta, phi, cosine, weight;
+
+    double difference() const { return model - measured; }
 };
 
 double checked(double value, const ReflectanceRow &row) {
@@ -55,21 +50,20 @@ double checked(double value, const ReflectanceRow &row) {
                  "expected a finite value not below 0"});
 }
 
-std::vector<View> make_views(const std::vector<const ReflectanceRow *> &rows, Symmetry symmetry,
-                             const BrdfFunction &model) {
-    const glm::dvec3 to_light = rows[0]->to_light();
-    std::vector<glm::dvec3> to_viewer;
-    for (const ReflectanceRow *row : rows)
-        to_viewer.push_back(row->to_viewer());
-    const std::vector<double> weight = solid_angles(to_viewer, to_light, symmetry);
+std::vector<View> make_views(const std::vector<ReflectanceRow> &rows,
+                             const std::vector<double> &solid_angle, const BrdfFunction &model) {
+    const glm::dvec3 to_light = rows[0].to_light();
     std::vector<View> views;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        views.push_back({.measured = rows[i]->brdf_per_sr,
-                         .sigma = rows[i]->sigma_per_sr,
-                         .model = checked(model(to_light, to_viewer[i]), *rows[i]),
-                         .theta = rows[i]->theta_r,
-                         .cosine = to_viewer[i].z,
-                         .weight = weight[i]});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const glm::dvec3 to_viewer = rows[i].to_viewer();
+        views.push_back({.measured = rows[i].brdf_per_sr,
+                         .sigma = rows[i].sigma_per_sr,
+                         .model = checked(model(to_light, to_viewer), rows[i]),
+                         .theta = rows[i].theta_r,
+                         .phi = rows[i].phi_r,
+                         .cosine = to_viewer.z,
+                         .weight = solid_angle[i]});
+    }
     return views;
 }
 
@@ -80,7 +74,58 @@ std::optional<double> over_peak(const std::vector<View> &views, double peak, Cho
     int count = 0;
     for (const View &view : views)
         if (view.cosine > kHorizonCosine && choose(view)) {
-            sum += std::abs(view.model - view.measured);
+            sum += std::abs(view.difference());
+            ++count;
+        }
+    return count > 0 ? std::optional(sum / count / peak) : std::nullopt;
+}
+
+// The views of the ring that holds `theta`, by azimuth.
+std::vector<View> ring_at(const std::vector<View> &views, double theta) {
+    std::vector<View> ring;
+    for (const View &view : views)
+        if (std::abs(view.theta - theta) < kRingWidth) {
+            ring.push_back(view);
+            ring.back().phi -= 2 * kPi * std::floor(view.phi / (2 * kPi));
+        }
+    std::sort(ring.begin(), ring.end(), [](const View &a, const View &b) { return a.phi < b.phi; });
+    return ring;
+}
+
+// f - m of a ring at an azimuth, between its neighbours.
+std::optional<double> difference_at(const std::vector<View> &ring, double phi) {
+    constexpr double kSame = 1e-6;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const View &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        const double turn = 2 * kPi;
+        const double at = std::fmod(phi - a.phi + kSame + turn, turn) - kSame;
+        const double gap = std::fmod(b.phi - a.phi + turn, turn);
+        if (at < kSame)
+            return a.difference();
+        if (at < gap && gap < kAzimuthsApart)
+            return std::lerp(a.difference(), b.difference(), at / gap);
+    }
+    return std::nullopt;
+}
+
+// As over_peak, on a ring between two that were measured.
+std::optional<double> interpolated_ring(const std::vector<View> &views, double peak) {
+    double below = 0, above = kPi / 2;
+    for (const View &view : views) {
+        if (view.theta < kRingTheta)
+            below = std::max(below, view.theta);
+        else if (view.cosine > kHorizonCosine)
+            above = std::min(above, view.theta);
+    }
+    if (above - below > kRingsApart)
+        return std::nullopt;
+    const std::vector<View> lower = ring_at(views, below), upper = ring_at(views, above);
+    const double share = (kRingTheta - below) / (above - below);
+    double sum = 0;
+    int count = 0;
+    for (const View &view : lower)
+        if (const auto beyond = difference_at(upper, view.phi)) {
+            sum += std::abs(std::lerp(view.difference(), *beyond, share));
             ++count;
         }
     return count > 0 ? std::optional(sum / count / peak) : std::nullopt;
@@ -111,6 +156,8 @@ ErrorMeasures measure(const std::vector<View> &views) {
     error.ring_over_peak = over_peak(views, peak, [](const View &view) {
         return std::abs(view.theta - kRingTheta) < kRingWidth;
     });
+    if (!error.ring_over_peak)
+        error.ring_over_peak = interpolated_ring(views, peak);
     error.log_p95 = log_percentile(views, peak);
 
     double difference = 0, square = 0, noise = 0, model_albedo = 0, albedo = 0;
@@ -152,28 +199,43 @@ ErrorMeasures mean_of(const std::vector<LightAccuracy> &directions) {
 
 std::span<const NamedMeasure> error_measures() { return kMeasures; }
 
-Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &model,
-                          const Progress &progress) {
+TableAccuracy::TableAccuracy(const ReflectanceTable &table, const Progress &progress) {
     if (table.rows.empty())
         throw Error({"the table has no row", "table", "expected measured directions"});
-    std::map<std::pair<long long, long long>, std::vector<const ReflectanceRow *>> by_light;
-    for (const ReflectanceRow &row : table.rows)
-        by_light[light_key(row)].push_back(&row);
+    std::vector<std::vector<ReflectanceRow>> lights = rows_by_light(table);
+    std::vector<std::vector<double>> solid_angle =
+        solid_angles_by_light(lights, table.symmetry, progress);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        lights_.push_back({std::move(lights[i]), std::move(solid_angle[i])});
+}
+
+Accuracy TableAccuracy::of(const BrdfFunction &model, const Progress &progress) const {
     Accuracy accuracy;
-    std::vector<const std::vector<const ReflectanceRow *> *> groups;
-    for (const auto &[key, rows] : by_light) {
-        groups.push_back(&rows);
+    for (const Light &light : lights_) {
+        const ReflectanceRow &first = light.rows[0];
+        const bool above = first.from_above();
         accuracy.directions.push_back(
-            {.theta_i = rows[0]->theta_i,
-             .phi_i = key.second == 0 ? 0.0 : std::fmod(rows[0]->phi_i + 4 * kPi, 2 * kPi),
-             .views = rows.size()});
+            {.theta_i = above ? 0.0 : first.theta_i,
+             .phi_i = above ? 0.0 : std::fmod(first.phi_i + 4 * kPi, 2 * kPi),
+             .views = light.rows.size()});
     }
-    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, lights_.size(), [&](std::size_t i) {
         stop_if_asked(progress);
-        accuracy.directions[i].error = measure(make_views(*groups[i], table.symmetry, model));
+        accuracy.directions[i].error =
+            measure(make_views(lights_[i].rows, lights_[i].solid_angle, model));
     });
     accuracy.mean = mean_of(accuracy.directions);
     return accuracy;
+}
+
+bool TableAccuracy::only_from_above() const {
+    return std::ranges::all_of(lights_,
+                               [](const Light &light) { return light.rows[0].from_above(); });
+}
+
+Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &model,
+                          const Progress &progress) {
+    return TableAccuracy(table, progress).of(model, progress);
 }
 
 } // namespace tsuya

@@ -36,7 +36,9 @@ struct ErrorMeasures {
     /// mean |f - m| over the views / largest m: the measure of [Takeda]. A huge peak makes it
     /// small.
     std::optional<double> mean_over_peak{};
-    /// The same mean over the ring theta_r = 60 degrees alone, over the same largest m.
+    /// The same mean over the ring theta_r = 60 degrees alone (within half a degree), over the same
+    /// largest m. Where no view lies on it, f - m is interpolated between the nearest rings below
+    /// and above; empty where one is missing or they are more than 20 degrees apart.
     std::optional<double> ring_over_peak{};
     /// sqrt(sum w (f c - m c)^2 / sum w (m c)^2)
     std::optional<double> l2_cos{};
@@ -83,9 +85,29 @@ struct Accuracy {
 std::vector<double> solid_angles(std::span<const glm::dvec3> to_viewer, const glm::dvec3 &to_light,
                                  Symmetry symmetry);
 
-/// Compares the model with every row of the table, light direction by light direction. Throws Error
-/// for a table without rows, and naming both directions where the model is not finite or negative;
-/// Interrupted where progress asks to stop.
+/// Compares models with every row of a table, light direction by light direction. What does not
+/// depend on the model, such as solid angles, is found once.
+class TableAccuracy {
+  public:
+    /// Throws Error for a table without rows; Interrupted where progress asks to stop.
+    explicit TableAccuracy(const ReflectanceTable &table, const Progress &progress = {});
+
+    /// Throws Error naming both directions where the model is not finite or negative; Interrupted
+    /// where progress asks to stop.
+    Accuracy of(const BrdfFunction &model, const Progress &progress = {}) const;
+    /// All light is from straight above. A model that is an interpolant of these views looks better
+    /// than it is under other light.
+    bool only_from_above() const;
+
+  private:
+    struct Light {
+        std::vector<ReflectanceRow> rows;
+        std::vector<double> solid_angle; // of each row's view
+    };
+    std::vector<Light> lights_{};
+};
+
+/// The accuracy of one model. Throws Error as TableAccuracy.
 Accuracy measure_accuracy(const ReflectanceTable &table, const BrdfFunction &model,
                           const Progress &progress = {});
 

@@ -2,6 +2,7 @@
 /// \file
 /// The measured or simulated reflectance of a fabric: what the lab makes and a fabric is fitted to.
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -24,6 +25,9 @@ enum class Symmetry {
 /// As in files: `half-turn`.
 const char *name_of(Symmetry symmetry);
 
+/// Light as near as this to the normal, in radians, counts as light from straight above.
+inline constexpr double kNormalLight = 0.5001 * kDegree;
+
 /// One measured pair of directions. Angles in radians; phi from the weft axis.
 struct ReflectanceRow {
     double theta_i = 0, phi_i = 0;
@@ -31,8 +35,12 @@ struct ReflectanceRow {
     double brdf_per_sr = 0;  ///< without the cosine, >= 0
     double sigma_per_sr = 0; ///< standard error; 0 where unknown
 
-    /// Unit, z >= 0.
-    glm::dvec3 to_light() const { return direction_of(theta_i, phi_i); }
+    /// The light counts as light from straight above.
+    bool from_above() const { return theta_i <= kNormalLight; }
+    /// Unit, z >= 0; the normal where the light is from above.
+    glm::dvec3 to_light() const {
+        return from_above() ? glm::dvec3(0, 0, 1) : direction_of(theta_i, phi_i);
+    }
     /// Unit, z >= 0.
     glm::dvec3 to_viewer() const { return direction_of(theta_r, phi_r); }
     bool operator==(const ReflectanceRow &) const = default;
@@ -47,10 +55,14 @@ struct ReflectanceTable {
 
     /// A row has a standard error.
     bool has_sigma() const;
-    /// The rows with light from straight above.
+    /// The rows with light from straight above, within half a degree.
     ReflectanceTable normal_incidence() const;
     bool operator==(const ReflectanceTable &) const = default;
 };
+
+/// Whole numbers, the light's before the view's, that are equal where two rows have the same
+/// directions; the azimuth of a light or view along the normal does not count.
+std::array<long long, 4> direction_key(const ReflectanceRow &row);
 
 /// Throws Error naming `where`, with up to 20 problems: a value or angle that is not a finite
 /// number, a value below 0, an angle from the normal outside 0 to 90 degrees; rows of one pair of
@@ -61,12 +73,6 @@ void check_table(const ReflectanceTable &table, const std::string &where);
 /// comes from one quadrant about the normal, `half_turn` where from less than half of all azimuths.
 /// Empty for light from straight above alone, from further round, and for tables that declare one.
 std::optional<Symmetry> likely_symmetry(const ReflectanceTable &table);
-
-/// Reads TABLE.csv: comment lines `# key: value`, a header line, and rows
-/// `theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr[,sigma_per_sr]`, degrees.
-/// Throws Error with file:line:column of up to 20 problems: columns missing, not a number,
-/// negative, NaN, an angle outside [0, 90] or [-360, 360], no row, an unknown symmetry.
-ReflectanceTable read_reflectance_table(const std::filesystem::path &file);
 
 /// Writes TABLE.csv through a temporary file. Throws Error where the file cannot be written.
 void write_reflectance_table(const ReflectanceTable &table, const std::filesystem::path &file);
