@@ -67,6 +67,10 @@ std::unique_ptr<Command> make_garment_subdivide();
 std::unique_ptr<Command> make_lab_lines();
 std::unique_ptr<Command> make_lab_pulse();
 std::unique_ptr<Command> make_lab_plan();
+std::unique_ptr<Command> make_lab_run();
+std::unique_ptr<Command> make_lab_resume();
+std::unique_ptr<Command> make_lab_status();
+std::unique_ptr<Command> make_lab_reset();
 std::unique_ptr<Command> make_list();
 
 } // namespace tsuya::program

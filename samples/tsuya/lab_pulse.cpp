@@ -8,6 +8,7 @@
 #include "json.h"
 #include "tsuya/lab/progress_relay.h"
 #include "tsuya/lab/pulse_job.h"
+#include "tsuya/lab/supervisor.h"
 
 namespace tsuya::program {
 namespace {
@@ -104,6 +105,7 @@ struct LabPulse final : Command {
         job.train.warm_up = nanoseconds_of(warm_up_ms);
         if (tolerance_ms)
             job.train.tolerance = nanoseconds_of(*tolerance_ms);
+        job.library_threads = lab::other_threads(); // none is our own yet
         job.shutter = shutter.settings(line);
         if (lamp_line)
             job.lamp = lamp.settings(*lamp_line);

@@ -31,6 +31,10 @@ constexpr std::array kCommands{
     CommandEntry{"lab lines", "The GPIO lines of this computer", make_lab_lines},
     CommandEntry{"lab pulse", "Open the shutter for exact times", make_lab_pulse},
     CommandEntry{"lab plan", "Plan the frames of a capture session", make_lab_plan},
+    CommandEntry{"lab run", "Take the frames of a plan", make_lab_run},
+    CommandEntry{"lab resume", "Go on with a capture session", make_lab_resume},
+    CommandEntry{"lab status", "How far a capture session is", make_lab_status},
+    CommandEntry{"lab reset", "Acknowledge a fault of interlock or emergency stop", make_lab_reset},
     CommandEntry{"list", "What can be named: lamps, dyes, fabrics, ...", make_list},
 };
 

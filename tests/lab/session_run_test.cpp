@@ -113,6 +113,29 @@ TEST_F(SessionRuns, ChooseAnExposureThatDoesNotClipTheStandard) {
 }
 
 // Each fault of a picture, at its first two tries: put aside with its reason, and taken again.
+// A session that goes on under its second light tells whether the lamp is warm by that light.
+TEST(SessionRunsOfLights, TakeTheWhiteOfTheNextLight) {
+    SessionBed bed;
+    const auto pair = [](double theta_i_deg, double phi_i_deg) {
+        return DirectionPair{.theta_i = theta_i_deg * kDegree,
+                             .phi_i = phi_i_deg * kDegree,
+                             .theta_r = 60 * kDegree,
+                             .phi_r = 3};
+    };
+    write_plan(make_plan(bed.rig, {.directions = {.pairs = {pair(30, 0), pair(30, 45)}}}),
+               bed.plan_file());
+    bed.create();
+    BedRun run(bed.rig);
+    run.camera.on_expose = [&](const Shot &shot) { run.stop = run.stop || shot.number == 13u; };
+    EXPECT_THROW(run.run(bed.folder(), bed.rig), Interrupted);
+    BedRun again(bed.rig, 1.7e9 + 1e5);
+    again.run(bed.folder(), bed.rig);
+    const Session session = read_session(bed.folder());
+    EXPECT_TRUE(session.missing.empty());
+    EXPECT_NEAR(session.warm_up.front().planned.directions.phi_i, 0, 1e-9);
+    EXPECT_NEAR(session.warm_up.back().planned.directions.phi_i, 45 * kDegree, 1e-9);
+}
+
 TEST_F(SessionRuns, PutBadPicturesAsideAndTakeThemAgain) {
     struct Case {
         std::string expected;

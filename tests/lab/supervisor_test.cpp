@@ -108,6 +108,26 @@ TEST(Supervisor, PassesErrorsAndInterruptionsOn) {
     lines.expect_driven_off_twice();
 }
 
+// Libraries may start threads before main; those that the caller does not name are refused.
+TEST(Supervisor, AllowsTheThreadsOfLibrariesAlone) {
+    SupervisedLines lines;
+    std::atomic<bool> ending{false};
+    const auto idle = [&] {
+        while (!ending)
+            std::this_thread::sleep_for(1ms);
+    };
+    std::thread first(idle);
+    EXPECT_EQ(other_threads(), 1);
+    EXPECT_NE(lines.error_of([](Worker &) {}).find("the program has 2 threads"), std::string::npos);
+    lines.supervision.library_threads = 1;
+    EXPECT_EQ(lines.error_of([](Worker &) {}), "no error");
+    std::thread second(idle);
+    EXPECT_NE(lines.error_of([](Worker &) {}).find("the program has 3 threads"), std::string::npos);
+    ending = true;
+    first.join();
+    second.join();
+}
+
 // What the work runs is killed with it, also in a process group of its own.
 TEST(Supervisor, KillsTheCommandOfTheWork) {
     SupervisedLines lines;

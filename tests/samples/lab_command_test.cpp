@@ -1,11 +1,13 @@
-// tsuya lab plan: what the commands of a capture session print and return.
+// What the commands of a capture session print and return.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "samples/process.h"
 #include "samples/scratch.h"
+#include "tsuya/color/camera_frame.h"
 #include "tsuya/lab/plan.h"
+#include "tsuya/lab/safety.h"
 
 namespace tsuya::program {
 namespace {
@@ -38,6 +40,71 @@ TEST(LabCommands, PlanSaysWhatASessionWillTake) {
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", output, "--views", "few:0"}).status, 1);
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", output, "--symmetry", "round"}).status, 2);
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", (scratch / "a.csv").string()}).status, 1);
+}
+
+/// A rig of programs alone: `cp` as camera, nothing that moves.
+std::string program_rig(const std::string &picture) {
+    std::string text = "schema = \"tsuya-rig 1\"\n[lamp]\nkind = \"led\"\nwarm_up_s = 0\n"
+                       "restrike_s = 0\nmin_on_s = 0\nhold_s = 0\n[camera]\n"
+                       "command = [\"cp\", \"" +
+                       picture +
+                       "\", \"{file}\"]\nexposures_s = [0.1]\nblack = 0\n"
+                       "saturation = 60000\ne_per_dn = 1\nread_noise_e = 1\n"
+                       "[sample]\ndrive = \"command\"\ncommand = [\"true\", \"{sample}\"]\n"
+                       "[white]\nrho_std = 1\n";
+    for (const char *axis : {"lamp_theta", "lamp_phi", "camera", "stage"})
+        text += "[axes." + std::string(axis) +
+                "]\ndrive = \"command\"\ncommand = [\"true\", \"{deg}\"]\n";
+    return text;
+}
+
+// Every picture but the first is a copy, so that the session ends at once.
+TEST(LabCommands, RunTellsWhatFailsAndStatusHowFarItCame) {
+    const Scratch scratch;
+    const auto run = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), "lab");
+        return run_program(words, scratch.folder());
+    };
+    CameraFrame frame{.image = Image::make(32, 32, {"Y"}), .exposure_s = 0.1};
+    write_frame(scratch / "picture.tif", frame);
+    const std::string rig =
+        scratch.write("a.rig.toml", program_rig((scratch / "picture.tif").string())).string();
+    const std::string plan = (scratch / "a.plan.jsonl").string();
+    const std::string session = (scratch / "session").string();
+    ASSERT_EQ(run({"plan", rig, "--views", "few:45", "-o", plan}).status, 0);
+    const Outcome done = run({"run", plan, "-o", session});
+    EXPECT_EQ(done.status, 1);
+    EXPECT_NE(done.err.find("the picture is a copy of an earlier one"), std::string::npos)
+        << done.err;
+    const Outcome status = run({"status", session, "--json"});
+    ASSERT_EQ(status.status, 0) << status.err;
+    const json report = json::parse(status.out);
+    EXPECT_EQ(report.at("schema"), "tsuya-lab-status 1");
+    EXPECT_EQ(report.at("counted"), 0);
+    EXPECT_GE(report.at("rejected"), 2);
+    EXPECT_EQ(report.at("lamp_lit"), false);
+    EXPECT_EQ(report.at("running"), "");
+    EXPECT_NE(run({"status", session}).out.find("not running"), std::string::npos);
+    EXPECT_EQ(run({"resume", session}).status, 1);
+    EXPECT_NE(run({"run", plan, "-o", session}).err.find("the folder is not empty"),
+              std::string::npos);
+    EXPECT_EQ(run({"run", plan, "-o", session, "--tries", "0"}).status, 2);
+    EXPECT_EQ(run({"status", (scratch / "none").string()}).status, 1);
+}
+
+TEST(LabCommands, ResetNeedsAFaultAndAReason) {
+    const Scratch scratch;
+    const std::string rig = (scratch / "a.rig.toml").string();
+    const auto reset = [&](const std::string &reason) {
+        return run_program({"lab", "reset", rig, "--acknowledge", reason}, scratch.folder());
+    };
+    EXPECT_EQ(reset("looked").status, 1);
+    lab::latch_fault(lab::fault_log_of(rig), "the door", 1);
+    EXPECT_EQ(reset("").status, 1);
+    const Outcome done = reset("closed it");
+    EXPECT_EQ(done.status, 0);
+    EXPECT_EQ(done.out, "acknowledged: the door\n");
+    EXPECT_FALSE(lab::latched_fault(lab::fault_log_of(rig)));
 }
 
 } // namespace

@@ -34,7 +34,8 @@ PulseReport run_on_real_lines(const PulseJob &job, const Progress &progress) {
     if (job.lamp)
         lamp.emplace(*job.lamp);
     GpioLine shutter(job.shutter);
-    return run_supervised_pulses(job.train, shutter, lamp ? &*lamp : nullptr, progress);
+    return run_supervised_pulses(job.train, shutter, lamp ? &*lamp : nullptr, progress,
+                                 job.library_threads);
 }
 
 } // namespace
@@ -54,14 +55,16 @@ PulseReport run_pulse_job(const PulseJob &job, const Progress &progress) {
 }
 
 PulseReport run_supervised_pulses(const PulseTrain &train, OutputLine &shutter, OutputLine *lamp,
-                                  const Progress &progress) {
+                                  const Progress &progress, int library_threads) {
     check_pulse_train(train);
     PulseReport report;
     const Supervision supervision{.lines = {lamp, &shutter},
-                                  .receive = [&](std::string_view message) {
-                                      PulseTiming &timing = report.pulses.emplace_back();
-                                      std::memcpy(&timing, message.data(), sizeof timing);
-                                  }};
+                                  .receive =
+                                      [&](std::string_view message) {
+                                          PulseTiming &timing = report.pulses.emplace_back();
+                                          std::memcpy(&timing, message.data(), sizeof timing);
+                                      },
+                                  .library_threads = library_threads};
     const auto work = [&](Worker &worker) {
         run_pulses(train,
                    {.shutter = shutter,

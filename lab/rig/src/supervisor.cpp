@@ -202,16 +202,25 @@ void Supervisor::throw_outcome(const std::vector<Problem> &still_on) {
     throw Error(std::move(problems_));
 }
 
+} // namespace
+
+int other_threads() {
+    std::error_code unknown;
+    const auto threads =
+        std::distance(std::filesystem::directory_iterator("/proc/self/task", unknown), {});
+    return unknown ? 0 : static_cast<int>(threads) - 1;
+}
+
+namespace {
+
 void check_supervision(const Supervision &supervision) {
     Problems problems;
     problems.need(supervision.silence >= kMinSilence && supervision.silence <= kMaxSilence,
                   "is " + std::to_string(supervision.silence.count()) + " ms", "silence",
                   "100 ms to 5 s");
-    std::error_code unknown;
-    const auto threads =
-        std::distance(std::filesystem::directory_iterator("/proc/self/task", unknown), {});
-    problems.need(unknown || threads == 1,
-                  "the program has " + std::to_string(threads) + " threads", "supervisor",
+    const int threads = other_threads();
+    problems.need(threads <= supervision.library_threads,
+                  "the program has " + std::to_string(threads + 1) + " threads", "supervisor",
                   "a call before other threads start: a fork copies one thread only");
     problems.throw_if_any();
 }

@@ -15,8 +15,6 @@
 namespace tsuya::lab {
 namespace {
 
-using namespace std::chrono_literals;
-
 // Reading a large picture takes long, and does not beat.
 constexpr std::chrono::milliseconds kSilence{5000};
 constexpr std::chrono::milliseconds kAskAgain{100}; // whether the operator is ready
@@ -112,10 +110,11 @@ SessionResult run_for_real(const SessionJob &job, const std::filesystem::path &r
     OutputLine *const lamp = lines.output(LineRole::lamp);
     OutputLine *const shutter = lines.output(LineRole::shutter);
     const Supervision supervision{
-        .lines = {lamp, shutter},
+        .lines = {lamp, shutter, lines.output(LineRole::half_press)},
         .silence = kSilence,
         .heartbeat = lines.output(LineRole::heartbeat),
-        .receive = [&](std::string_view message) { people.receive(message); }};
+        .receive = [&](std::string_view message) { people.receive(message); },
+        .library_threads = job.library_threads};
     const auto work = [&](Worker &worker) {
         const Progress inner = worker.progress();
         SafetyClock clock(worker.clock(), lines.input(LineRole::interlock),

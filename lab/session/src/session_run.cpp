@@ -154,21 +154,22 @@ std::optional<double> SessionRun::take(const Shot &shot) {
     return attempt(shot.number, step) ? std::optional(mean) : std::nullopt;
 }
 
-/// The white frame of the plan that belongs to the next light.
+/// The first white frame of the plan under the next light, else under any.
 PlannedFrame SessionRun::white_frame() const {
     const std::vector<PlannedFrame> &frames = session_.plan.frames;
     const DirectionPair &next = frames[session_.missing.front()].directions;
-    const PlannedFrame *white = nullptr;
-    for (const PlannedFrame &frame : frames)
-        if (frame.kind == FrameKind::white &&
-            (!white ||
-             (frame.directions.theta_i == next.theta_i && frame.directions.phi_i == next.phi_i &&
-              white->directions.theta_i != next.theta_i)))
-            white = &frame;
-    if (!white)
+    const PlannedFrame *any = nullptr;
+    for (const PlannedFrame &frame : frames) {
+        if (frame.kind != FrameKind::white)
+            continue;
+        if (frame.directions.theta_i == next.theta_i && frame.directions.phi_i == next.phi_i)
+            return frame;
+        any = any ? any : &frame;
+    }
+    if (!any)
         throw Error({"the plan has no white frame", (session_.folder / "plan.jsonl").string(),
                      "expected one at least"});
-    return *white;
+    return *any;
 }
 
 /// The longest exposure of the camera that does not clip the standard.

@@ -16,6 +16,7 @@ struct PulseJob {
     std::optional<GpioLineSettings> lamp{};
     /// Virtual time and simulated lines: takes no time and needs no hardware.
     bool simulate = false;
+    int library_threads = 0; ///< as of Supervision
 };
 
 /// Takes the lines and runs the train, supervised where the lines are real. A job takes at least
@@ -27,6 +28,6 @@ PulseReport run_pulse_job(const PulseJob &job, const Progress &progress = {});
 /// that process is stopped or killed. Throws what run_supervised throws; errors and interruptions
 /// carry the pulses that were done, as those of run_pulses do. \param lamp may be null
 PulseReport run_supervised_pulses(const PulseTrain &train, OutputLine &shutter, OutputLine *lamp,
-                                  const Progress &progress = {});
+                                  const Progress &progress = {}, int library_threads = 0);
 
 } // namespace tsuya::lab

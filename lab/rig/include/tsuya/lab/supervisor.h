@@ -28,7 +28,13 @@ struct Supervision {
     /// Called in the calling process with what the work has sent, in order; may be empty. What was
     /// sent after a stop is dropped: the lines were driven off under the work.
     std::function<void(std::string_view message)> receive{};
+    /// Other threads that the program may have: those that libraries started before `main`, which
+    /// sleep and hold no lock. The work does not have them.
+    int library_threads = 0;
 };
+
+/// The threads of this program beside the caller's. At the start of `main`: those of libraries.
+int other_threads();
 
 /// The working process's side.
 class Worker {

@@ -18,6 +18,7 @@ struct SessionJob {
     FrameReader read{};             ///< of the pictures
     bool wait = false;              ///< for a lamp that may not be lit yet
     int tries = 3;                  ///< of a frame or a movement
+    int library_threads = 0;        ///< as of Supervision
     /// Told what the operator is to do; called in the calling process, must not block.
     std::function<void(const std::string &what)> ask{};
     /// Asked again and again whether the operator has done it; must not block. With neither, axes

@@ -1,0 +1,33 @@
+// tsuya lab run: takes the frames of a plan.
+
+#include "lab_session.h"
+#include "tsuya/lab/plan.h"
+
+namespace tsuya::program {
+namespace {
+
+struct LabRun final : Command {
+    std::filesystem::path plan{}, folder{};
+    SessionOptions session{};
+
+    void options(Options &o) override {
+        o.argument(&plan, "PLAN.jsonl", "plan of the session").required();
+        o.option("-o,--output", &folder, "SESSION", "new folder of the session").required();
+        session.options(o);
+        o.example("tsuya lab run satin.plan.jsonl -o satin");
+        o.notes("Lamp and shutter are off at the end of every run. Exit status 4: finished, but "
+                "frames are\nmissing whose pictures were rejected; `tsuya lab resume` takes them "
+                "again.");
+    }
+
+    Status run(Console &console) override {
+        lab::create_session(folder, plan, lab::read_plan(plan).rig);
+        return session.run(folder, console);
+    }
+};
+
+} // namespace
+
+std::unique_ptr<Command> make_lab_run() { return std::make_unique<LabRun>(); }
+
+} // namespace tsuya::program

@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// What the commands that run a capture session share.
+
+#include "command.h"
+#include "tsuya/lab/session_run.h"
+
+namespace tsuya::program {
+
+/// The options of a run, and the run itself.
+class SessionOptions {
+  public:
+    void options(Options &o);
+    /// Runs the session in the folder and prints how far it is. \return kDone, or kCheckFailed
+    /// where frames were rejected and are missing
+    Status run(const std::filesystem::path &folder, Console &console) const;
+
+  private:
+    lab::SessionResult result(const std::filesystem::path &folder, Console &console) const;
+
+    bool wait_ = false, json_ = false;
+    int tries_ = 3;
+};
+
+} // namespace tsuya::program
