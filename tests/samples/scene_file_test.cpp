@@ -143,6 +143,7 @@ TEST(SceneFile, ReadsEveryKey) {
         scratch,
         "[camera]\neye = [1, 2, 3]\ntarget = [0, 1, 0]\nup = [0, 0, 1]\nvertical_angle_deg = 30\n"
         "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\ntransmittance = 0.2\nweft_tint = \"#ff0000\"\n"
+        "warp_dye = 0.3\nlustre = \"dull\"\ndelustre = 0.4\n"
         "warp_tint = \"flat.csv\"\nspecular_tint = 0.9\n[fabrics.b]\nreflectance = 0.25\n"
         "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nlevel = 3\n"
         "tolerance_px = 0.5\nsewing_tolerance_mm = 0.25\nstrict = true\nmax_degenerate_area = "
@@ -166,6 +167,9 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_NEAR(file.camera->vertical_angle, 30 * kDegree, 1e-12);
     EXPECT_NEAR(file.fabrics[0].dye->at(500), 0.5, 1e-12);
     EXPECT_EQ(file.fabrics[0].transmittance, Spectrum::constant(0.2));
+    EXPECT_EQ(file.fabrics[0].warp_dye, Spectrum::constant(0.3));
+    EXPECT_EQ(file.fabrics[0].lustre, Lustre::dull);
+    EXPECT_EQ(file.fabrics[0].delustre, 0.4);
     EXPECT_GT(file.fabrics[0].weft_tint->at(650), 2 * file.fabrics[0].weft_tint->at(450));
     EXPECT_NEAR(file.fabrics[0].warp_tint->at(500), 0.5, 1e-12);
     EXPECT_EQ(file.fabrics[0].specular_tint, Spectrum::constant(0.9));

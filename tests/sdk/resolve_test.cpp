@@ -116,6 +116,23 @@ TEST(FabricWarnings, NameTheSymmetryThatATableMayHaveForgotten) {
     EXPECT_TRUE(fabric_warnings({.name = "plain"}, "fabrics.plain").empty());
 }
 
+// One cloth in two dyes: what was made for the first serves the second to the last bit.
+TEST(Resolve, TakesTablesOfTheSameCloth) {
+    Fabric red = satin(), pale = satin();
+    pale.colours.dye = Spectrum::constant(0.7);
+    pale.colours.lustre = Lustre::semi_dull;
+    const Material first = resolve(red, "red");
+    const Material taken = resolve(pale, "pale", first), made = resolve(pale, "pale");
+    const glm::vec3 light = direction(40, 10), view = direction(60, 170);
+    EXPECT_EQ(taken.specular->evaluate(light, view), made.specular->evaluate(light, view));
+    EXPECT_EQ(taken.body->evaluate(light, view), made.body->evaluate(light, view));
+    EXPECT_EQ(taken.dye, made.dye);
+    EXPECT_EQ(taken.warp_body, made.warp_body);
+    // A colourless surface takes no light from the body below it
+    pale.colours.specular_tint = Spectrum::constant(0);
+    EXPECT_GT(resolve(pale, "pale", first).body->albedo(view), 1.01f * made.body->albedo(view));
+}
+
 TEST(Resolve, RefusesTwoDescriptionsOfOneKind) {
     Fabric fabric = satin();
     fabric.spare = {GgxFacets{}, GgxFacets{.alpha_weft = 0.5}};

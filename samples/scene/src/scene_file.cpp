@@ -36,7 +36,14 @@ Fabric load_fabric(const FabricEntry &entry, const std::string &scene_file) {
         fabric = read_fabric(entry.file);
     fabric.name = entry.name;
     if (entry.dye)
-        fabric.colours.dye = *entry.dye;
+        fabric.colours.dye_all(*entry.dye);
+    if (entry.weft_dye)
+        fabric.colours.weft_dye = entry.weft_dye;
+    if (entry.warp_dye)
+        fabric.colours.warp_dye = entry.warp_dye;
+    fabric.colours.lustre = entry.lustre.value_or(fabric.colours.lustre);
+    if (entry.delustre)
+        fabric.colours.delustre = entry.delustre;
     if (entry.f0)
         set_f0(fabric, *entry.f0, scene_file);
     if (entry.transmittance)

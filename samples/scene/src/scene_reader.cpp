@@ -144,6 +144,11 @@ void SceneReader::read_fabrics() {
         entry.specular_tint = colour(section, "specular_tint");
         entry.weft_tint = colour(section, "weft_tint");
         entry.warp_tint = colour(section, "warp_tint");
+        entry.weft_dye = colour(section, "weft_dye");
+        entry.warp_dye = colour(section, "warp_dye");
+        if (const auto lustre = section.text("lustre"))
+            note(section, "lustre", [&] { entry.lustre = lustre_named(*lustre, ""); });
+        entry.delustre = section.number("delustre", 0, 1);
         file_.fabrics.push_back(std::move(entry));
     }
 }

@@ -253,7 +253,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
         if (frame > 0 && i % dyes.size() == 0)
             scene.surfaces[0] = show->frame(stage.further[frame - 1]);
         if (dye.spectrum)
-            scene.fabrics[0].colours.dye = *dye.spectrum;
+            scene.fabrics[0].colours.dye_all(*dye.spectrum);
         const RenderResult rendered = render_try_on(scene, job.render, part);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;

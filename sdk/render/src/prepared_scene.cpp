@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "tsuya/sdk/error.h"
 
@@ -80,12 +81,25 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
     std::vector<bool> used(scene.fabrics.size(), keep_idle_parts);
     for (const Object &object : scene.objects)
         used[object.fabric.value] = true;
+    std::vector<Material> made;
+    // A fabric before, made, with the same specular part: one cloth in several colours
+    const auto alike = [&](std::size_t i) {
+        for (std::size_t j = 0; j < i; ++j)
+            if (used[j] && scene.fabrics[j].specular == scene.fabrics[i].specular)
+                return std::optional(j);
+        return std::optional<std::size_t>();
+    };
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
         if (progress.stopped())
             throw Interrupted("stopped while the fabrics were prepared");
-        const Material material =
-            used[i] ? resolve(scene.fabrics[i], "fabrics." + scene.fabrics[i].name, progress)
-                    : Material{};
+        const std::string where = "fabrics." + scene.fabrics[i].name;
+        if (!used[i])
+            made.emplace_back();
+        else if (const auto j = alike(i))
+            made.push_back(resolve(scene.fabrics[i], where, made[*j], progress));
+        else
+            made.push_back(resolve(scene.fabrics[i], where, progress));
+        const Material &material = made.back();
         colours.push_back(colours_of(material, basis));
         shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
     }

@@ -121,6 +121,11 @@ const Spectrum &FabricColours::warp() const { return warp_tint ? *warp_tint : sp
 
 const Spectrum &FabricColours::dye_of_weft() const { return weft_dye ? *weft_dye : dye; }
 const Spectrum &FabricColours::dye_of_warp() const { return warp_dye ? *warp_dye : dye; }
+void FabricColours::dye_all(const Spectrum &with) {
+    dye = with;
+    weft_dye.reset();
+    warp_dye.reset();
+}
 bool FabricColours::any_dye() const {
     return dye_of_weft().any_above_zero() || dye_of_warp().any_above_zero();
 }

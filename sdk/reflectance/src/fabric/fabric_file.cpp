@@ -45,23 +45,6 @@ Spectrum read_spectrum(const Section &section, const Field &field, const Spectru
     return spectrum;
 }
 
-// The value whose name the key has; names stand in the order of the values.
-template <class Enum, std::size_t N>
-Enum read_name(const Section &section, std::string_view key,
-               const std::array<std::string_view, N> &names, Enum otherwise) {
-    const auto text = section.text(key);
-    if (!text)
-        return otherwise;
-    const auto found = std::find(names.begin(), names.end(), *text);
-    if (found == names.end()) {
-        section.problem(
-            key, "unknown " + std::string(key) + " '" + *text + "'",
-            accepted_names(*text, std::vector<std::string>(names.begin(), names.end())));
-        return otherwise;
-    }
-    return static_cast<Enum>(found - names.begin());
-}
-
 // Reads the fields of a struct from the section that has their keys.
 struct FieldReader {
     const Section &section;
@@ -90,7 +73,12 @@ struct FieldReader {
             spectrum = read_spectrum(section, field, Spectrum::constant(1));
     }
     void operator()(const Field &field, Lustre &lustre) const {
-        lustre = read_name(section, field.key, kLustreNames, lustre);
+        if (const auto name = section.text(field.key))
+            try {
+                lustre = lustre_named(*name, "");
+            } catch (const Error &error) {
+                section.problem(field.key, error);
+            }
     }
     template <std::size_t N>
     void operator()(const Field &field, std::array<double, N> &values) const {

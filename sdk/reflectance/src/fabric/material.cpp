@@ -74,7 +74,10 @@ struct Port {
 };
 
 // Adds the coloured part and what the cloth lets through.
-void add_colours(const FabricColours &colours, Material &material, const Progress &progress) {
+// \param made of the same specular part, if there is one; its body serves where its surface
+// reflects or does not as this one's
+void add_colours(const FabricColours &colours, Material &material, const Material *made,
+                 const Progress &progress) {
     constexpr double kLeastPassed = 1e-3; // of a surface that reflects all
     const auto surface = [&](const glm::vec3 &d) {
         return material.has_specular() ? std::min(material.specular->albedo_of_view(d), 1.0f)
@@ -83,7 +86,10 @@ void add_colours(const FabricColours &colours, Material &material, const Progres
     const auto *const yarns = material.specular ? material.specular->get_if<YarnBrdf>() : nullptr;
     Port port{.colours = colours, .even = std::max(1 - at_port(surface), kLeastPassed)};
     if (yarns && colours.any_dye() && colours.delustre != 1.0) {
-        material.body.emplace(yarns->lobes(), surface, progress);
+        if (made && made->body && made->has_specular() == material.has_specular())
+            material.body = made->body;
+        else
+            material.body.emplace(yarns->lobes(), surface, progress);
         port.has_body = true;
         port.body = at_port([&](const glm::vec3 &d) { return material.body->albedo(d); });
     }
@@ -102,6 +108,16 @@ void add_colours(const FabricColours &colours, Material &material, const Progres
     material.warp_body = mapped(warp, [&](double r) { return port.body_albedo(r); });
 }
 
+Material resolve_with(const Fabric &fabric, const std::string &where, const Material *made,
+                      const Progress &progress) {
+    check_fabric(fabric, where);
+    Material material{.specular = made ? made->specular : make_brdf(fabric, where, progress),
+                      .weft_tint = fabric.colours.weft(),
+                      .warp_tint = fabric.colours.warp()};
+    add_colours(fabric.colours, material, made, progress);
+    return material;
+}
+
 } // namespace
 
 bool Material::has_diffuse() const {
@@ -113,12 +129,12 @@ bool Material::has_specular() const {
 }
 
 Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress) {
-    check_fabric(fabric, where);
-    Material material{.specular = make_brdf(fabric, where, progress),
-                      .weft_tint = fabric.colours.weft(),
-                      .warp_tint = fabric.colours.warp()};
-    add_colours(fabric.colours, material, progress);
-    return material;
+    return resolve_with(fabric, where, nullptr, progress);
+}
+
+Material resolve(const Fabric &fabric, const std::string &where, const Material &made,
+                 const Progress &progress) {
+    return resolve_with(fabric, where, &made, progress);
 }
 
 } // namespace tsuya

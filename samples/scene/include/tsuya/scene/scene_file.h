@@ -30,6 +30,9 @@ struct FabricEntry {
     /// Empty: the file's own
     std::optional<double> f0{};
     std::optional<Spectrum> transmittance{}, specular_tint{}, weft_tint{}, warp_tint{};
+    std::optional<Spectrum> weft_dye{}, warp_dye{};
+    std::optional<Lustre> lustre{};
+    std::optional<double> delustre{};
 };
 
 /// `[garments.NAME]` or `[bodies.NAME]`. Bodies have no yarn directions.

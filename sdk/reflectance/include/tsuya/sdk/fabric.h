@@ -90,6 +90,8 @@ struct FabricColours {
     const Spectrum &dye_of_weft() const;
     /// As `dye_of_weft`, of the other system.
     const Spectrum &dye_of_warp() const;
+    /// Gives both systems this dye.
+    void dye_all(const Spectrum &with);
     /// A dye is above 0 somewhere.
     bool any_dye() const;
     bool operator==(const FabricColours &) const = default;
@@ -172,6 +174,10 @@ struct Material {
 /// Checks the fabric and makes its material. Throws Error naming `where` as check_fabric and as
 /// make_brdf; Interrupted where progress asks to stop.
 Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress = {});
+/// The same of a fabric whose `specular` is that of another, of which `made` was resolved: takes
+/// the tables from there, so that a cloth in other colours takes no time.
+Material resolve(const Fabric &fabric, const std::string &where, const Material &made,
+                 const Progress &progress = {});
 
 /// Reads F.fabric.toml, and the table it names. Throws Error with file:line:column; unknown keys
 /// and models are refused with the nearest known. Throws Interrupted.

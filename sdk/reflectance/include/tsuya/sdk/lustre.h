@@ -3,6 +3,7 @@
 /// How much of a dyed cloth's coloured part has lost its direction.
 
 #include <array>
+#include <string>
 #include <string_view>
 
 namespace tsuya {
@@ -12,6 +13,9 @@ enum class Lustre { bright, semi_dull, dull };
 
 /// In the order of Lustre.
 inline constexpr std::array<std::string_view, 3> kLustreNames = {"bright", "semi-dull", "dull"};
+
+/// The lustre of that name. Throws Error naming `where`, with the nearest name.
+Lustre lustre_named(const std::string &name, const std::string &where);
 
 /// Share of the coloured part that is Lambertian, 0 to 1; the rest follows the yarns, see body.h.
 /// Dark cloth shows light of one passage through filaments and has more direction; pale cloth that
