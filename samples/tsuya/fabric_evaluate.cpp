@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "command.h"
@@ -17,6 +18,7 @@ namespace tsuya::program {
 namespace {
 
 constexpr int kWidth = 16;
+constexpr double kAnyWavelength = 560; // in nanometres: the dye is the same at all
 
 struct Result {
     std::string model;
@@ -25,7 +27,8 @@ struct Result {
 
 struct FabricEvaluate final : Command {
     std::filesystem::path fabric_file{}, table_file{}, values_file{};
-    std::string model_name{};
+    std::string model_name{}, part{};
+    std::optional<double> reflectance{};
     bool json = false;
 
     void options(Options &o) override {
@@ -33,19 +36,33 @@ struct FabricEvaluate final : Command {
         o.option("--against", &table_file, "TABLE.csv", "measured reflectance").required();
         o.option("--model", &model_name, "NAME",
                  "model, or all that the fabric has the data of; without it, the fabric's own");
+        o.option(
+             "--reflectance", &reflectance, "R",
+             "compare the dyed cloth whose coloured part reflects R at 8 degrees, specular part "
+             "excluded")
+            .range(0, 1);
+        o.option("--part", &part, "PART",
+                 "what to compare: surface, the specular part; body, the coloured part; all, both "
+                 "(default all with --reflectance, else surface)")
+            .one_of({"all", "surface", "body"});
         o.option("--values", &values_file, "VALUES.csv",
                  "file for every row of the table beside the models' values");
         o.flag("--json", &json, "print the error measures as JSON");
         o.example("tsuya fabric evaluate black_satin.fabric.toml --against black_satin.csv "
                   "--model all");
-        o.notes("`tsuya list models` names the models. The specular reflectance is compared, "
-                "without the dye.");
+        o.notes("`tsuya list models` names the models. Without --reflectance the specular part is "
+                "compared, and not the fabric's own dye.");
     }
 
     Status run(Console &console) override {
         if (!values_file.empty())
             scene::check_output_file(values_file, {".csv"});
         const Progress progress = console.progress();
+        if (part.empty())
+            part = reflectance ? "all" : "surface";
+        if (part != "surface" && !reflectance)
+            throw Error({"the coloured part is compared for no reflectance", "--part",
+                         "expected --reflectance R"});
         const Fabric fabric = read_fabric(fabric_file, progress);
         const ReflectanceTable table = read_single_table(table_file, console);
         const TableAccuracy against(table, progress);
@@ -53,7 +70,7 @@ struct FabricEvaluate final : Command {
             console.warning(table_file.string() +
                             ": all light is from straight above, where models that were fitted to "
                             "such views are better than under other light");
-        if (fabric.colours.dye.any_above_zero())
+        if (fabric.colours.any_dye() && !reflectance)
             console.warning(fabric_file.string() + ": the fabric has a dye, which is not compared");
         std::vector<std::string> models{model_name.empty() ? std::string(model_of(fabric))
                                                            : model_name};
@@ -64,7 +81,7 @@ struct FabricEvaluate final : Command {
         std::vector<Result> results;
         std::vector<BrdfFunction> functions;
         for (const std::string &model : models) {
-            functions.push_back(make_model(model, fabric, fabric_file.string(), progress));
+            functions.push_back(function_of(model, fabric, progress));
             results.push_back({model, against.of(functions.back(), progress)});
             progress("models",
                      static_cast<double>(results.size()) / static_cast<double>(models.size()));
@@ -73,6 +90,23 @@ struct FabricEvaluate final : Command {
             write_values(table, models, functions);
         json ? print_json(results, against.only_from_above()) : print_text(results);
         return kDone;
+    }
+
+    // The parts that are compared.
+    BrdfFunction function_of(const std::string &model, const Fabric &fabric,
+                             const Progress &progress) const {
+        if (part == "surface")
+            return make_model(model, fabric, fabric_file.string(), progress);
+        Fabric dyed = with_model(fabric, model, fabric_file.string());
+        dyed.colours.dye_all(Spectrum::constant(*reflectance));
+        dyed.colours.transmittance = Spectrum::constant(0);
+        const Material material = resolve(dyed, fabric_file.string(), progress);
+        const BrdfFunction body = coloured_part(material, kAnyWavelength);
+        if (part == "body" || !material.specular)
+            return body;
+        return [body, surface = *material.specular](const glm::dvec3 &l, const glm::dvec3 &v) {
+            return body(l, v) + static_cast<double>(surface.evaluate(glm::vec3(l), glm::vec3(v)));
+        };
     }
 
     void write_values(const ReflectanceTable &table, const std::vector<std::string> &models,

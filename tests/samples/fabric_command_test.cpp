@@ -13,6 +13,8 @@
 #include "samples/scratch.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/reflectance_file.h"
 
 namespace tsuya::program {
@@ -64,6 +66,35 @@ TEST(FabricEvaluate, ReportsEveryMeasureOfEveryModelAsJson) {
             EXPECT_EQ(slanting.at(measure).is_null(), absent) << measure;
         }
     }
+}
+
+// An even table of the reflectance is what a dull cloth in that dye shows: near by the body alone,
+// far by the surface.
+TEST(FabricEvaluate, ComparesDyedClothByItsParts) {
+    const Scratch scratch;
+    Fabric dull = read_fabric(satin());
+    dull.colours.delustre = 1;
+    const std::string fabric = (scratch / "dull.fabric.toml").string();
+    write_fabric(dull, fabric);
+    ReflectanceTable even{.symmetry = Symmetry::orthotropic};
+    for (const double theta : {0.0, 15.0, 30.0, 45.0, 60.0})
+        for (const double phi : {0.0, 30.0, 60.0, 90.0})
+            even.rows.push_back({0, 0, theta * kDegree, phi * kDegree, 0.4 / kPi, 0});
+    const std::string table = (scratch / "even.csv").string();
+    write_reflectance_table(even, table);
+    const auto l2_cos = [&](const std::string &part) {
+        const Outcome done = run(scratch, {"evaluate", fabric, "--against", table, "--reflectance",
+                                           "0.4", "--part", part, "--json"});
+        EXPECT_EQ(done.status, 0) << done.err;
+        return json::parse(done.out)["results"][0]["mean"]["l2_cos"].get<double>();
+    };
+    EXPECT_LT(l2_cos("body"), 0.05);
+    EXPECT_GT(l2_cos("surface"), 0.3);
+    EXPECT_GT(l2_cos("all"), 2 * l2_cos("body"));
+    const Outcome refused =
+        run(scratch, {"evaluate", fabric, "--against", table, "--part", "body"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("--reflectance"), std::string::npos) << refused.err;
 }
 
 TEST(FabricEvaluate, FindsTheSampleSatinNearItsOwnTable) {

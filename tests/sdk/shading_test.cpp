@@ -83,6 +83,18 @@ TEST(Shading, ReflectsNoMoreThanArrives) {
         }
 }
 
+// As a function for comparisons it is what is rendered.
+TEST(Shading, RendersTheColouredPart) {
+    const Cloth cloth(dyed({}));
+    const BrdfFunction part = coloured_part(cloth.material, kRed);
+    Random random(6);
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec3 light = random.direction(), view = random.direction();
+        const double rendered = cloth.coloured(light, view, kRed);
+        EXPECT_NEAR(part(light, view) * light.z, rendered, 1e-5 + 1e-5 * rendered);
+    }
+}
+
 // A delustre of 1 is the Lambertian part below the surface, to the last bit.
 TEST(Shading, FullDelustreIsLambertian) {
     const Cloth cloth(dyed(1));

@@ -24,17 +24,7 @@ Shading::Shading(const Material &material, const MeanColours &means, bool keep_i
     if (!material.specular || !(material.has_specular() || keep_idle_parts))
         return;
     specular_ = material.specular;
-    // Mean over the cosine-weighted hemisphere, midpoint rule
-    constexpr int kSteps = 32;
-    double sum = 0;
-    for (int i = 0; i < kSteps; ++i)
-        for (int j = 0; j < kSteps; ++j) {
-            const float sine2 = (static_cast<float>(i) + 0.5f) / kSteps;
-            const float phi = 2 * kPiF * (static_cast<float>(j) + 0.5f) / kSteps;
-            const float s = std::sqrt(sine2);
-            sum += albedo({s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - sine2)});
-        }
-    mean_albedo_ = static_cast<float>(sum / (kSteps * kSteps));
+    mean_albedo_ = mean_albedo(*specular_);
 }
 
 float Shading::albedo(const glm::vec3 &direction) const {

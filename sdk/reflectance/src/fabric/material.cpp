@@ -137,4 +137,39 @@ Material resolve(const Fabric &fabric, const std::string &where, const Material 
     return resolve_with(fabric, where, &made, progress);
 }
 
+float mean_albedo(const Brdf &brdf) {
+    constexpr int kSteps = 32; // midpoint rule
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const float sine2 = (static_cast<float>(i) + 0.5f) / kSteps;
+            const float phi = 2 * kPiF * (static_cast<float>(j) + 0.5f) / kSteps;
+            const float s = std::sqrt(sine2);
+            sum += std::min(1.0f, brdf.albedo_of_light({s * std::cos(phi), s * std::sin(phi),
+                                                        std::sqrt(1 - sine2)}));
+        }
+    return static_cast<float>(sum / (kSteps * kSteps));
+}
+
+// The Lambertian part lies below the surface as in [Kelemen].
+BrdfFunction coloured_part(const Material &material, double wavelength_nm) {
+    const bool covered = material.has_specular();
+    const double passed = covered ? 1 - mean_albedo(*material.specular) : 1;
+    return [=, dye = material.dye.at(wavelength_nm), weft = material.weft_body.at(wavelength_nm),
+            warp = material.warp_body.at(wavelength_nm)](const glm::dvec3 &l, const glm::dvec3 &v) {
+        const glm::vec3 light(l), viewer(v);
+        if (!(light.z > 0 && viewer.z > 0))
+            return 0.0;
+        double f = dye / (kPi * passed);
+        if (covered)
+            for (const glm::vec3 &d : {light, viewer})
+                f *= 1 - std::min(1.0f, material.specular->albedo_of_light(d));
+        if (material.body) {
+            const WeighedLight w = material.body->weigh(light, viewer);
+            f += (weft * w.weft + warp * (w.f_cos - w.weft)) / light.z;
+        }
+        return f;
+    };
+}
+
 } // namespace tsuya

@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/body.h"
 #include "tsuya/sdk/brdf.h"
@@ -178,6 +179,13 @@ Material resolve(const Fabric &fabric, const std::string &where, const Progress 
 /// the tables from there, so that a cloth in other colours takes no time.
 Material resolve(const Fabric &fabric, const std::string &where, const Material &made,
                  const Progress &progress = {});
+
+/// Mean of a model's albedo over the cosine-weighted hemisphere, in 0..1.
+float mean_albedo(const Brdf &brdf);
+
+/// The coloured part at one wavelength as a function, for comparisons: what was inside the
+/// filaments, without the specular part.
+BrdfFunction coloured_part(const Material &material, double wavelength_nm);
 
 /// Reads F.fabric.toml, and the table it names. Throws Error with file:line:column; unknown keys
 /// and models are refused with the nearest known. Throws Interrupted.
