@@ -22,7 +22,7 @@ namespace tsuya::test {
 /// `kMove` for any way.
 class GrblStandIn {
   public:
-    static constexpr std::chrono::milliseconds kMove{150};
+    static constexpr std::chrono::milliseconds kMove{400};
 
     GrblStandIn() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
         grantpt(master_);
@@ -87,8 +87,8 @@ class GrblStandIn {
         char text[120];
         const bool runs = std::chrono::steady_clock::now() < arrives_;
         std::snprintf(text, sizeof text, "<%s|MPos:%.3f,%.3f,%.3f|FS:0,0>\r\n",
-                      alarm_ ? "Alarm" : (runs ? "Run" : "Idle"), runs ? 0 : at_[0] - short_by,
-                      at_[1], at_[2]);
+                      alarm_ ? "Alarm" : (runs ? "Run" : "Idle"), at_[0] - short_by, at_[1],
+                      at_[2]);
         say(text);
     }
     void take(const std::string &line) {

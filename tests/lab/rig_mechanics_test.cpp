@@ -126,7 +126,7 @@ struct GrblBed {
     RigMechanics mechanics{rig, clock, {}, {.stop = &stop}};
 };
 
-// `ok` comes at once; the movement takes 150 ms more.
+// `ok` comes at once; the movement takes 400 ms more.
 TEST(Grbl, HomesFirstAndWaitsForTheArrival) {
     GrblBed bed;
     EXPECT_EQ(bed.error_of_move(30), "no error");
@@ -148,7 +148,7 @@ TEST(Grbl, HomesAgainAfterAnAlarm) {
 
 TEST(Grbl, TellsSilenceAndWrongPositions) {
     GrblBed bed;
-    bed.rig.axes[0].timeout = Seconds(0.6);
+    bed.rig.axes[0].timeout = Seconds(1);
     EXPECT_EQ(bed.error_of_move(10), "no error");
     bed.stand_in.short_by = 0.2;
     EXPECT_NE(bed.error_of_move(30).find("stands at 29.8"), std::string::npos);

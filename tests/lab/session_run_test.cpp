@@ -244,7 +244,7 @@ TEST_F(SessionRuns, EndAtOnceWhereTheHousingIsOpened) {
     run.camera.on_expose = [&](const Shot &shot) {
         if (shot.number != 7u)
             return;
-        opened = run.time.now() + 300ms;
+        opened = run.time.now() + 303ms; // between two looks at the level
         run.time.at(opened, [&] { run.interlock.change(false); });
         run.time.at(opened + 5ms, [&] { run.interlock.change(true); }); // and is closed again
     };
@@ -265,6 +265,38 @@ TEST_F(SessionRuns, EndAtOnceWhereTheHousingIsOpened) {
     late.boottime_s = 1e5;
     EXPECT_EQ(late.run(bed.folder(), bed.rig, with_logs()).missing(), 0u);
     EXPECT_EQ(pictures_of(session()), pictures_of(SessionBed().finished()));
+}
+
+// A camera that does not sleep on the watched clock hides nothing.
+TEST_F(SessionRuns, LookAtTheHousingAfterEachExposure) {
+    struct Unwatched final : FrameCamera {
+        explicit Unwatched(BedRun &bed_run) : run(bed_run) {}
+        void expose(const Shot &shot) override {
+            if (shot.number == 7u) {
+                run.interlock.change(false);
+                run.interlock.change(true);
+            }
+            run.time.advance(1s);
+        }
+        void collect(const Shot &shot) override {
+            write_file(shot.file, run.camera.picture_of(shot));
+        }
+        BedRun &run;
+    };
+    BedRun run(bed.rig);
+    Unwatched camera(run);
+    const SessionHardware usual = run.hardware();
+    const SessionHardware hardware{.lamp = usual.lamp,
+                                   .shutter = usual.shutter,
+                                   .mechanics = usual.mechanics,
+                                   .camera = camera,
+                                   .clock = usual.clock,
+                                   .read = usual.read,
+                                   .moments = usual.moments};
+    EXPECT_THROW(run_session(bed.folder(), bed.rig, hardware, {}), SessionFault);
+    run.expect_off();
+    for (const JournalEvent &event : read_journal(bed.folder() / "journal.jsonl").events)
+        EXPECT_FALSE(event.kind == EventKind::close && event.frame == 7u);
 }
 
 TEST_F(SessionRuns, DoNotBeginWithTheStopPressedOrTheHousingOpen) {
