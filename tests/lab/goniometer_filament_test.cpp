@@ -231,15 +231,14 @@ TEST(ClearCylinder, AbsorbsAlongTheChord) {
                                         .surface_roughness = 0.005,
                                         .transmission = transmission};
             const Measurement m = measure(
-                far_cylinders(optics), {.pairs = {{theta, kPi / 2, 0, 0}}}, {.photons = 1 << 21});
+                far_cylinders(optics), {.pairs = {{theta, kPi / 2, 0, 0}}}, {.photons = 1 << 20});
             const LightReport &light = m.lights[0];
             const double lost = 1 - light.reflected - light.transmitted;
-            const double sigma = std::hypot(light.reflected_sigma, light.transmitted_sigma) +
-                                 3e-3 * kCover; // the roughness
-            EXPECT_NEAR(lost, kCover * (1 - Cylinder(theta, transmission).all), 4 * sigma) << theta;
-            EXPECT_GT(std::abs(lost - kCover * (1 - Cylinder(theta, 0.7 * transmission).all)),
-                      4 * sigma)
-                << "control";
+            const double expected = kCover * (1 - Cylinder(theta, transmission).all);
+            // Nearer to the truth than to a transmission that is off by 5 %
+            const double wrong = kCover * (1 - Cylinder(theta, 0.95 * transmission).all);
+            EXPECT_NEAR(lost, expected, 0.4 * std::abs(wrong - expected)) << theta;
+            EXPECT_GT(std::abs(lost - wrong), 0.4 * std::abs(wrong - expected)) << "control";
         }
 }
 
@@ -397,24 +396,19 @@ double gap_of(const FilamentCell &cell) {
 }
 
 TEST(ClearFilaments, OfWeavesAreApartAlongCrossingsToo) {
-    for (const char *name :
-         {"black polyester satin", "polyester taffeta", "twill lining", "shot silk"}) {
+    for (const std::string &name : weave_names()) {
         Weave cloth = weave(name);
         for (Yarn *yarn : {&cloth.warp, &cloth.weft}) {
             yarn->section = FilamentSection::round; // the circle about any section
-            yarn->transmission = {0.5, 0.5, 0.5};
+            yarn->transmission = {0, 0, 0};         // as they are built, not thinned
         }
         FilamentRepeat repeat = build_filaments(cloth);
-        const FilamentCell cell(repeat, 0.02, 24);
-        EXPECT_GT(gap_of(cell), kLeastGap - 1e-4) << name;
-        EXPECT_GT(cell.thinning, 0.95) << name;
-        // Control: yarns moved into each other by a tenth of a filament
+        EXPECT_GT(gap_of(FilamentCell(repeat, 0.02, 24)), 0) << name;
+        // Control: yarns moved into each other by a quarter of a filament
         for (Filament &f : repeat.filaments)
             for (glm::vec3 &p : f.point)
-                p.z += f.system == 0 ? -0.2f * f.radius : 0;
-        for (FilamentOptics &optics : repeat.optics)
-            optics.transmission = 0;
-        EXPECT_LT(gap_of(FilamentCell(repeat, 0.02, 24)), kLeastGap) << name;
+                p.z += f.system == 0 ? -0.5f * f.radius : 0;
+        EXPECT_LT(gap_of(FilamentCell(repeat, 0.02, 24)), 0) << name;
     }
 }
 

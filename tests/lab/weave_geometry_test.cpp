@@ -137,7 +137,7 @@ TEST_P(Preset, PathsGoOnIntoTheNextRepeat) {
 }
 
 TEST_P(Preset, YarnsCrossOnTheSideOfTheDraftAndTouch) {
-    const double apart = (cloth_.warp.thickness() + cloth_.weft.thickness()) / 2;
+    const double apart = (report_.warp_thickness + report_.weft_thickness) / 2;
     double closest = 1e300;
     for (int e = 0; e < cloth_.draft.ends; ++e)
         for (int p = 0; p < cloth_.draft.picks; ++p) {
@@ -147,13 +147,13 @@ TEST_P(Preset, YarnsCrossOnTheSideOfTheDraftAndTouch) {
             EXPECT_GT(above, 0.95 * apart) << e << " " << p;
             closest = std::min(closest, above);
         }
-    EXPECT_LT(closest, 1.15 * apart);
+    EXPECT_LT(closest, 1.2 * apart);
 }
 
 TEST_P(Preset, NothingPassesThroughAnything) {
     EXPECT_GT(least_gap(repeat_, cloth_), -kTolerance);
-    EXPECT_GT(report_.warp_weft_gap, -1e-8);
-    EXPECT_LT(report_.warp_weft_gap, 2e-6); // they touch
+    EXPECT_GT(report_.warp_weft_gap, -0.25e-6); // a twentieth of a filament
+    EXPECT_LT(report_.warp_weft_gap, 2e-6);     // they touch
     EXPECT_GE(report_.neighbour_gap, 0);
     // The check sees a weft that is lifted by a third of a filament.
     FilamentRepeat wrong = repeat_;
@@ -182,6 +182,27 @@ TEST_P(Preset, FilamentsOfAYarnDoNotOverlap) {
     EXPECT_LT(std::max(report_.warp_fill, report_.weft_fill), 0.75);
 }
 
+// Counts and weights as the presets tell them.
+TEST_P(Preset, IsAsFineAndHeavyAsItsSourceSays) {
+    struct Row {
+        const char *name;
+        double warp_decitex, weft_decitex, mass_per_m2;
+    };
+    constexpr double kMomme = 4.306e-3, kDenier = 1 / 0.9, kRaw = 0.77 * kDenier;
+    const Row rows[] = {{"black polyester satin", 75 * kDenier, 75 * kDenier, 95e-3},
+                        {"silk charmeuse", 42 * kRaw, 63 * kRaw, 16 * kMomme},
+                        {"polyester taffeta", 75 * kDenier, 75 * kDenier, 65e-3},
+                        {"silk habotai", 42 * kRaw, 42 * kRaw, 8 * kMomme},
+                        {"twill lining", 84, 84, 75e-3},
+                        {"shot silk", 42 * kRaw, 70 * kRaw, 43e-3}};
+    const auto row = std::find_if(std::begin(rows), std::end(rows),
+                                  [&](const Row &r) { return r.name == GetParam(); });
+    ASSERT_NE(row, std::end(rows));
+    EXPECT_NEAR(report_.warp_decitex / row->warp_decitex, 1, 0.02);
+    EXPECT_NEAR(report_.weft_decitex / row->weft_decitex, 1, 0.02);
+    EXPECT_NEAR(report_.mass_per_m2 / row->mass_per_m2, 1, 0.06);
+}
+
 TEST_P(Preset, IsCentredAndAsThickAsReported) {
     double low = 1e300, high = -1e300;
     for (const Filament &f : repeat_.filaments)
@@ -192,7 +213,7 @@ TEST_P(Preset, IsCentredAndAsThickAsReported) {
     const double slack = 0.02 * report_.thickness;
     EXPECT_NEAR(high, report_.thickness / 2, slack);
     EXPECT_NEAR(low, -report_.thickness / 2, slack);
-    EXPECT_LT(report_.thickness, 2.2 * (cloth_.warp.thickness() + cloth_.weft.thickness()));
+    EXPECT_LT(report_.thickness, 2.2 * (report_.warp_thickness + report_.weft_thickness));
     EXPECT_GT(report_.cover, 0.9);
     EXPECT_LE(report_.cover, 1);
     EXPECT_GT(report_.warp_crimp, 0);
@@ -205,13 +226,29 @@ INSTANTIATE_TEST_SUITE_P(All, Preset, testing::ValuesIn(weave_names()), [](const
     return name;
 });
 
+// Pressed yarns are as wide as their spacing, thicker, and of the same filaments.
+TEST(WeaveGeometry, YarnsThatAreWiderThanTheirSpacingArePressed) {
+    Weave cloth = weave("black polyester satin");
+    ASSERT_GT(cloth.warp.width, 1.1 * cloth.warp.spacing());
+    const WeaveReport pressed = report_weave(cloth);
+    EXPECT_NEAR(pressed.cover, 1, 1e-3);
+    EXPECT_NEAR(pressed.neighbour_gap, 0, 1e-9);
+    EXPECT_GT(pressed.warp_thickness, 1.1 * cloth.warp.thickness());
+    cloth.warp.per_cm = 0.009 / cloth.warp.width; // control: room for all of the width
+    const WeaveReport loose = report_weave(cloth);
+    EXPECT_LT(loose.cover, 0.99);
+    EXPECT_GT(loose.neighbour_gap, 0.05 * cloth.warp.width);
+    EXPECT_NEAR(loose.warp_thickness, cloth.warp.thickness(), 1e-9);
+    EXPECT_NEAR(loose.warp_decitex / pressed.warp_decitex, 1, 0.01);
+}
+
 TEST(WeaveGeometry, ASatinShowsItsWarp) {
     for (const char *name : {"black polyester satin", "silk charmeuse"}) {
         const WeaveReport report = report_weave(weave(name));
         EXPECT_GT(report.warp_on_face, 0.75) << name;
         EXPECT_LT(report.weft_on_face, 0.25) << name;
     }
-    const WeaveReport plain = report_weave(weave("shot silk"));
+    const WeaveReport plain = report_weave(weave("silk habotai"));
     EXPECT_NEAR(plain.warp_on_face, plain.weft_on_face, 0.1);
 }
 
@@ -373,14 +410,13 @@ TEST(WeaveGeometry, OptionsAndSizesOutOfRangeAreRefused) {
     hard.warp.twist_per_m = 3000;
     EXPECT_THROW(build_filaments(hard), Error);
     EXPECT_NO_THROW(build_filaments(hard, {.points_per_crossing = 64}));
-    Weave jammed = weave("black polyester satin");
-    jammed.warp.tension = 100;
-    jammed.weft.tension = 1;
+    Weave jammed = weave("polyester taffeta"); // no room for the warp between the picks
+    jammed.weft.width = 0.32e-3;
     try {
         report_weave(jammed);
         ADD_FAILURE();
     } catch (const Error &error) {
-        EXPECT_EQ(error.problems()[0].where, "black polyester satin");
+        EXPECT_EQ(error.problems()[0].where, "polyester taffeta");
         EXPECT_TRUE(error.problems()[0].what.starts_with("the yarns pass through each other"));
     }
     Weave large = cloth;

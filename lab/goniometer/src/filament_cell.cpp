@@ -14,6 +14,7 @@ constexpr double kLongest = 16;    // cone, in its radii: long ones make loose b
 constexpr int kMostParts = 256;    // of one segment of a path
 constexpr double kTubeTurn = 5;    // times that of cones: normals are interpolated between rings
 constexpr double kMostTwist = 0.3; // of a section between rings, radians
+constexpr double kMostSag = 0.02;  // of an arc over its chord, in radii
 constexpr double kFlatness = 2;    // least width of the cell in thicknesses of the cloth
 constexpr double kSharpest = 0.02; // corner, in radii of the section
 
@@ -92,8 +93,9 @@ void thin(Path &path, double most_turn) {
         const Path::Station &next = path.station[(i + 1) % path.station.size()];
         const double twist = std::abs(std::remainder(next.turn - last.turn, 2 * kPi));
         const double length = glm::distance(s.position, last.position);
-        if (angle_between(last.tangent, next.tangent) > most_turn || twist > kMostTwist ||
-            length > 0.5 * kLongest * path.radius)
+        const double turn = angle_between(last.tangent, next.tangent);
+        const double longest = std::min(0.5 * kLongest, 8 * kMostSag / std::max(turn, 1e-9));
+        if (turn > most_turn || twist > kMostTwist || length > longest * path.radius)
             kept.push_back(s);
     }
     path.station = std::move(kept);

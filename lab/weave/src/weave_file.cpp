@@ -71,11 +71,11 @@ void read_yarn(const Section &section, Yarn &yarn) {
         section.number("surface_roughness", 0, 1).value_or(yarn.surface_roughness);
     read_lustre(section, yarn);
     read_transmission(section, yarn);
-    if (yarn.width > yarn.spacing())
+    if (yarn.width > kMostPressed * yarn.spacing())
         section.problem(section.has("width_mm") ? "width_mm" : "per_cm",
                         "yarns " + std::to_string(yarn.width * 1e3) + " mm wide lie " +
                             std::to_string(yarn.spacing() * 1e3) + " mm apart",
-                        "expected a width_mm of at most 10 / per_cm");
+                        "expected a width_mm of at most 20 / per_cm");
 }
 
 /// Rows of a drawdown as printed, the last pick first.

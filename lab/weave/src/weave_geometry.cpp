@@ -70,12 +70,11 @@ void append_filaments(const WeaveLayout &layout, const YarnPlan &plan, std::uint
                       std::vector<Filament> &filaments) {
     constexpr double kTurn = 2 * kPi;
     const bool warp = plan.system == 0;
-    const detail::RaceTrack &section = warp ? layout.warp : layout.weft;
     const detail::FilamentPacking &packing = warp ? layout.warp_packing : layout.weft_packing;
     const bool round = layout.section[plan.system] == FilamentSection::round;
     std::uint32_t number = 0;
     for (const detail::FilamentRing &ring : packing.rings) {
-        const bool turns = ring.radius > 0;
+        const bool turns = ring.outline.radius > 0;
         const double first =
             turns ? hashed(seed, plan.system, plan.yarn, 7919u + number) : 0.5 / ring.count;
         for (int i = 0; i < ring.count; ++i, ++number) {
@@ -94,8 +93,7 @@ void append_filaments(const WeaveLayout &layout, const YarnPlan &plan, std::uint
                 const double along = static_cast<double>(k) / static_cast<double>(n);
                 const double phase =
                     first + static_cast<double>(i) / ring.count + (turns ? plan.turns * along : 0);
-                const glm::dvec2 place =
-                    ring_place(section, ring, packing.filament_radius, phase) + shift;
+                const glm::dvec2 place = ring_place(ring, phase) + shift;
                 filament.point.push_back(point_of(plan, k, place));
                 if (!round)
                     filament.turn.push_back(

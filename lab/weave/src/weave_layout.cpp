@@ -7,6 +7,8 @@
 namespace tsuya::lab::detail {
 namespace {
 
+constexpr double kClearance = 0.02; ///< between warp and weft, radii of filaments
+
 void check_options(const GeometryOptions &options) {
     const auto fail = [](const char *name, std::string accepted) {
         throw Error({std::string(name) + " is out of range", std::string("geometry.") + name,
@@ -61,6 +63,16 @@ void check_twist(const std::string &where, double turns, double points) {
                      "expected fewer turns or more points_per_crossing"});
 }
 
+YarnSection section_of(const Yarn &yarn, double twist_per_m) {
+    return press(YarnSection::of(yarn.width, yarn.thickness()), yarn.spacing(), yarn.filaments,
+                 twist_per_m);
+}
+
+YarnSection grown(YarnSection section, double by) {
+    section.radius += by;
+    return section;
+}
+
 /// Yarns that are pulled very differently may find no paths clear of each other.
 void check_room(const std::string &where, const WeaveLayout &layout) {
     constexpr double kMostOverlap = 0.02; // of the distance of the axes
@@ -77,9 +89,7 @@ WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
     check_weave(weave, weave.name.empty() ? "weave" : weave.name);
     WeaveLayout layout{.draft = weave.draft,
                        .warp_spacing = weave.warp.spacing(),
-                       .weft_spacing = weave.weft.spacing(),
-                       .warp = RaceTrack(weave.warp.width, weave.warp.thickness()),
-                       .weft = RaceTrack(weave.weft.width, weave.weft.thickness())};
+                       .weft_spacing = weave.weft.spacing()};
     layout.section = {weave.warp.section, weave.weft.section};
     layout.points = options.points_per_crossing;
     const double size_x = layout.draft.ends * layout.warp_spacing;
@@ -96,13 +106,21 @@ WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
     check_twist(name + ".weft", layout.weft_turns,
                 static_cast<double>(layout.draft.ends) * layout.tiles_x * layout.points);
     check_size(weave, layout);
-    layout.warp_packing = pack_filaments(layout.warp, weave.warp.filaments);
-    layout.weft_packing = pack_filaments(layout.weft, weave.weft.filaments);
+    const double warp_twist = layout.warp_turns / (size_y * layout.tiles_y);
+    const double weft_twist = layout.weft_turns / (size_x * layout.tiles_x);
+    layout.warp = section_of(weave.warp, warp_twist);
+    layout.weft = section_of(weave.weft, weft_twist);
+    layout.warp_packing = pack_filaments(layout.warp, weave.warp.filaments, warp_twist);
+    layout.weft_packing = pack_filaments(layout.weft, weave.weft.filaments, weft_twist);
+    // Filaments come as near to the surface of their yarn as to each other: no nearer between the
+    // points of the paths either
+    const double clearance = kClearance * std::max(layout.warp_packing.filament_radius,
+                                                   layout.weft_packing.filament_radius);
     layout.paths = solve_paths({.draft = layout.draft,
                                 .warp_spacing = layout.warp_spacing,
                                 .weft_spacing = layout.weft_spacing,
-                                .warp = layout.warp,
-                                .weft = layout.weft,
+                                .warp = grown(layout.warp, clearance / 2),
+                                .weft = grown(layout.weft, clearance / 2),
                                 .points = layout.points,
                                 .stiffness_length = options.stiffness_length,
                                 .warp_tension = weave.warp.tension,

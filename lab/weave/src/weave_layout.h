@@ -13,7 +13,7 @@ namespace tsuya::lab::detail {
 struct WeaveLayout {
     Draft draft{};
     double warp_spacing = 0, weft_spacing = 0; ///< of ends along x, of picks along y, metres
-    RaceTrack warp, weft;
+    YarnSection warp{}, weft{};                ///< as they lie in the cloth
     FilamentPacking warp_packing{}, weft_packing{};
     std::array<FilamentSection, 2> section{};
     int points = 12; ///< of a path per crossing

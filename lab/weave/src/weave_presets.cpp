@@ -1,11 +1,14 @@
-/// The weaves that can be named. Their numbers are typical of such cloth in the trade and ours: no
-/// sample was measured and no one source gives them all ([Adanur] and [Robinson] explain the
-/// constructions and the counts). What ties them together: the width is a little less than the
-/// spacing in dense warps, and the thickness is that at which the filaments, packed in rings, are
-/// as thick as their count says: a circle of d decitex and density rho (polyester 1380, silk 1340,
-/// viscose 1520 kg/m^3) has the area d / rho. Round filaments fill 0.55 to 0.7 of the yarn then.
-/// Multifilament yarns of low twist lie flat: thickness over width 0.2 to 0.5, which [Peirce]
-/// leaves free.
+/// The weaves that can be named. No sample was measured. Counts, deniers and weights are those of
+/// such cloth in the trade, from the sources beside each; where none is named they are ours, in the
+/// usual range ([Adanur] and [Robinson] explain the constructions). Widths and thicknesses of yarns
+/// by themselves are ours: multifilament yarns of low twist lie flat, which [Peirce] leaves free,
+/// and the thickness is that at which the filaments, packed in rings, are as thick as their count
+/// says. A circle of d decitex and density rho (polyester 1380, silk 1340, viscose 1520 kg/m^3) has
+/// the area d / rho; report_weave() finds the decitex again. Dense warps are wider than their
+/// spacing and press each other flat.
+///
+/// Raw silk of 20/22 denier is 23.3 decitex of nine cocoons' double threads, and loses 23 % as it
+/// is degummed [Sericin]. That leaves 18 filaments of 18 decitex. A momme is 4.306 g/m^2.
 ///
 /// The roughness of filaments along their axis is that of measured cloth, [Sadeghi] Table II: the
 /// flat threads of a polyester satin scatter by 2.5 degrees about the cone of their tangent, those
@@ -19,111 +22,111 @@ namespace tsuya::lab {
 namespace {
 
 constexpr double kPolyesterRoughness = 0.044; // radians
-constexpr double kStraight = 50;              // tension of a weft that lies level
+constexpr double kStraight = 100;             // tension of a weft that lies level
 
-/// Dress satin: warp 50 dtex / 24 filaments, weft 84 dtex / 36 filaments. Nothing that enters a
+/// Dress satin of 75 denier / 36 filaments (83 decitex) both ways, 95 g/m^2. Nothing that enters a
 /// black filament leaves it.
 Weave black_polyester_satin() {
     Yarn warp{.per_cm = 76,
-              .width = 0.125e-3,
-              .flattening = 0.40,
-              .filaments = 24,
-              .surface_roughness = kPolyesterRoughness};
-    Yarn weft{.per_cm = 34,
-              .width = 0.200e-3,
-              .flattening = 0.226,
+              .width = 0.160e-3,
+              .flattening = 0.381,
               .filaments = 36,
-              .tension = kStraight,
               .surface_roughness = kPolyesterRoughness};
+    Yarn weft = warp;
+    weft.per_cm = 34;
+    weft.width = 0.180e-3;
+    weft.flattening = 0.339;
+    weft.tension = kStraight;
     return {"black polyester satin", parse_draft("satin 5"), warp, weft};
 }
 
-/// About 19 momme: warp two ends of 20/22 denier raw silk as one, weft three with a crepe's twist,
-/// degummed: fibres near 1 dtex, triangular with rounded corners, undyed.
+/// Degummed silk: triangular filaments with rounded corners, undyed.
+Yarn silk(double per_cm, double width, double flattening, int filaments) {
+    return {.per_cm = per_cm,
+            .width = width,
+            .flattening = flattening,
+            .filaments = filaments,
+            .section = FilamentSection::triangular,
+            .corner_rounding = 0.4,
+            .material = FiberMaterial::silk,
+            .transmission = {0.8, 0.78, 0.7}};
+}
+
+/// 16 momme: warp 2 x 20/22 denier without twist, weft 3 x 20/22 denier with a crepe's twist. Both
+/// the weight and the twist are of the trade's range [CrepeSatin], where up to 2600 turns are
+/// usual.
 Weave silk_charmeuse() {
-    Yarn warp{.per_cm = 130,
-              .width = 0.074e-3,
-              .flattening = 0.78,
-              .filaments = 30,
-              .section = FilamentSection::triangular,
-              .corner_rounding = 0.4,
-              .material = FiberMaterial::silk,
-              .transmission = {0.8, 0.78, 0.7}};
-    Yarn weft = warp;
-    weft.per_cm = 45;
-    weft.width = 0.092e-3;
-    weft.flattening = 0.76;
-    weft.filaments = 45;
+    const Yarn warp = silk(110, 0.100e-3, 0.645, 36);
+    Yarn weft = silk(45, 0.120e-3, 0.812, 54);
     weft.twist_per_m = 2000;
     weft.tension = kStraight;
     return {"silk charmeuse", parse_draft("satin 8"), warp, weft};
 }
 
-/// "190T": 112 ends and 78 picks to the inch of 75 dtex / 24 filaments.
+/// "190T": 112 ends and 78 picks to the inch of 75 denier / 36 filaments.
 Weave polyester_taffeta() {
     Yarn warp{.per_cm = 44,
-              .width = 0.180e-3,
-              .flattening = 0.295,
-              .filaments = 24,
+              .width = 0.240e-3,
+              .flattening = 0.191,
+              .filaments = 36,
               .surface_roughness = kPolyesterRoughness};
-    Yarn weft{.per_cm = 31,
-              .width = 0.200e-3,
-              .flattening = 0.265,
-              .filaments = 24,
-              .surface_roughness = kPolyesterRoughness};
+    Yarn weft = warp;
+    weft.per_cm = 31;
+    weft.width = 0.250e-3;
+    weft.flattening = 0.183;
     return {"polyester taffeta", parse_draft("plain"), warp, weft};
 }
 
-/// Twill lining of viscose: 84 dtex / 24 filaments both ways, black.
+/// Habotai of 8 momme, which is light and sheer [Babu]. 2 x 20/22 denier both ways, without twist.
+Weave silk_habotai() {
+    const Yarn warp = silk(50, 0.170e-3, 0.214, 36);
+    Yarn weft = warp;
+    weft.per_cm = 45;
+    return {"silk habotai", parse_draft("plain"), warp, weft};
+}
+
+/// Twill lining of viscose: 84 decitex / 30 filaments both ways, black.
 Weave twill_lining() {
     Yarn warp{.per_cm = 50,
-              .width = 0.170e-3,
-              .flattening = 0.325,
-              .filaments = 24,
+              .width = 0.210e-3,
+              .flattening = 0.229,
+              .filaments = 30,
               .material = FiberMaterial::cellulose};
     Yarn weft = warp;
     weft.per_cm = 34;
-    weft.width = 0.200e-3;
-    weft.flattening = 0.265;
+    weft.width = 0.230e-3;
+    weft.flattening = 0.209;
     return {"twill lining", parse_draft("twill 2/2"), warp, weft};
 }
 
-/// Silk taffeta, red warp and green weft; dyes chosen by us.
+/// Silk taffeta of 10 momme, 56.4 ends of 2 x 20/22 and 36.5 picks of 2 x 30/40 denier to the
+/// centimetre [DoupioniTaffeta], red warp and green weft; dyes chosen by us.
 Weave shot_silk() {
-    Yarn warp{.per_cm = 56,
-              .width = 0.140e-3,
-              .flattening = 0.33,
-              .filaments = 40,
-              .section = FilamentSection::triangular,
-              .corner_rounding = 0.4,
-              .material = FiberMaterial::silk,
-              .transmission = {0.65, 0.08, 0.10}};
-    Yarn weft = warp;
-    weft.per_cm = 40;
-    weft.width = 0.180e-3;
-    weft.flattening = 0.205;
+    Yarn warp = silk(56.4, 0.190e-3, 0.191, 36);
+    warp.transmission = {0.65, 0.08, 0.10};
+    Yarn weft = silk(36.5, 0.220e-3, 0.220, 60);
     weft.transmission = {0.08, 0.45, 0.15};
     return {"shot silk", parse_draft("plain"), warp, weft};
+}
+
+std::vector<Weave> presets() {
+    return {black_polyester_satin(), silk_charmeuse(), polyester_taffeta(),
+            silk_habotai(),          twill_lining(),   shot_silk()};
 }
 
 } // namespace
 
 std::vector<std::string> weave_names() {
-    return {"black polyester satin", "silk charmeuse", "polyester taffeta", "twill lining",
-            "shot silk"};
+    std::vector<std::string> names;
+    for (const Weave &preset : presets())
+        names.push_back(preset.name);
+    return names;
 }
 
 Weave weave(std::string_view name, const std::string &where) {
-    if (name == "black polyester satin")
-        return black_polyester_satin();
-    if (name == "silk charmeuse")
-        return silk_charmeuse();
-    if (name == "polyester taffeta")
-        return polyester_taffeta();
-    if (name == "twill lining")
-        return twill_lining();
-    if (name == "shot silk")
-        return shot_silk();
+    for (Weave &preset : presets())
+        if (preset.name == name)
+            return preset;
     throw Error({"unknown weave \"" + std::string(name) + "\"", where,
                  accepted_names(name, weave_names())});
 }

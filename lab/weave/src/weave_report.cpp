@@ -2,19 +2,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tsuya/lab/filament_outline.h"
+#include "tsuya/sdk/angle.h"
 #include "weave_layout.h"
 
 namespace tsuya::lab {
 namespace {
 
-using detail::RaceTrack;
 using detail::WeaveLayout;
+using detail::YarnSection;
 
-/// Half the thickness of a race-track at a distance from its axis; below 0 outside it.
-double half_thickness(const RaceTrack &section, double across) {
+/// Half the thickness of a section at a distance from its axis; below 0 outside it.
+double half_thickness(const YarnSection &section, double across) {
     const double beyond = std::max(0.0, std::abs(across) - section.half_flat);
-    return beyond < section.radius ? std::sqrt(section.radius * section.radius - beyond * beyond)
-                                   : -1;
+    if (beyond > section.radius)
+        return -1;
+    return std::sqrt(section.radius * section.radius - beyond * beyond);
 }
 
 /// A height between two places of a path, by the Catmull-Rom spline that the filaments follow.
@@ -42,7 +45,7 @@ double gap_at(const WeaveLayout &layout, int end, int pick) {
         heights_about([&](int k) { return layout.paths.warp_height(end, k); }, pick, layout.points);
     const auto weft =
         heights_about([&](int k) { return layout.paths.weft_height(pick, k); }, end, layout.points);
-    const auto beyond = [&](std::size_t i, double spacing, const RaceTrack &section) {
+    const auto beyond = [&](std::size_t i, double spacing, const YarnSection &section) {
         const double along = static_cast<double>(i) / (layout.points * kBetween) - 1;
         return std::max(0.0, std::abs(along) * spacing - section.half_flat);
     };
@@ -97,12 +100,40 @@ double crimp(const std::vector<double> &heights, int points, double step) {
     return length / (step * static_cast<double>(heights.size())) - 1;
 }
 
-double fill(const RaceTrack &section, const detail::FilamentPacking &packing) {
+/// Kilograms per cubic metre: [Adanur] Table 2.2 of polyester and viscose, silk as fibroin.
+double density(FiberMaterial material) {
+    switch (material) {
+    case FiberMaterial::polyester:
+        return 1380;
+    case FiberMaterial::silk:
+        return 1340;
+    default:
+        return 1520;
+    }
+}
+
+/// What filaments weigh, kilograms per metre of their yarn.
+struct Mass {
+    double alone = 0;   ///< of straight ones
+    double twisted = 0; ///< with the length that twist takes up
+
+    Mass(const Yarn &yarn, const detail::FilamentPacking &packing, double twist_per_m) {
+        const double each = outline_of(yarn.section, yarn.corner_rounding).area() *
+                            packing.filament_radius * packing.filament_radius *
+                            density(yarn.material);
+        for (const detail::FilamentRing &ring : packing.rings) {
+            const double round = ring.outline.radius > 0 ? ring.outline.perimeter() : 0;
+            alone += ring.count * each;
+            twisted += ring.count * each * std::hypot(1, twist_per_m * round);
+        }
+    }
+};
+
+double fill(const YarnSection &section, const detail::FilamentPacking &packing) {
     double count = 0;
     for (const detail::FilamentRing &ring : packing.rings)
         count += ring.count;
-    return count * RaceTrack(2 * packing.filament_radius, 2 * packing.filament_radius).area() /
-           section.area();
+    return count * kPi * packing.filament_radius * packing.filament_radius / section.area();
 }
 
 } // namespace
@@ -112,12 +143,14 @@ WeaveReport report_weave(const Weave &weave, const GeometryOptions &options) {
     WeaveReport report;
     look_from_above(layout, report);
     report.thickness = layout.paths.thickness;
+    report.warp_thickness = 2 * layout.warp.radius;
+    report.weft_thickness = 2 * layout.weft.radius;
     report.warp_weft_gap = 1e300;
     for (int e = 0; e < layout.draft.ends; ++e)
         for (int p = 0; p < layout.draft.picks; ++p)
             report.warp_weft_gap = std::min(report.warp_weft_gap, gap_at(layout, e, p));
-    report.neighbour_gap =
-        std::min(layout.warp_spacing - weave.warp.width, layout.weft_spacing - weave.weft.width);
+    report.neighbour_gap = std::min(layout.warp_spacing - 2 * layout.warp.half_width(),
+                                    layout.weft_spacing - 2 * layout.weft.half_width());
     report.warp_crimp =
         crimp(layout.paths.warp, layout.paths.warp_points, layout.weft_spacing / layout.points);
     report.weft_crimp =
@@ -128,6 +161,12 @@ WeaveReport report_weave(const Weave &weave, const GeometryOptions &options) {
         layout.warp_turns / (layout.draft.picks * layout.weft_spacing * layout.tiles_y);
     report.weft_twist_per_m =
         layout.weft_turns / (layout.draft.ends * layout.warp_spacing * layout.tiles_x);
+    const Mass warp(weave.warp, layout.warp_packing, report.warp_twist_per_m);
+    const Mass weft(weave.weft, layout.weft_packing, report.weft_twist_per_m);
+    report.warp_decitex = 1e7 * warp.alone;
+    report.weft_decitex = 1e7 * weft.alone;
+    report.mass_per_m2 = warp.twisted * (1 + report.warp_crimp) / layout.warp_spacing +
+                         weft.twisted * (1 + report.weft_crimp) / layout.weft_spacing;
     return report;
 }
 

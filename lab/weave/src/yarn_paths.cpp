@@ -15,13 +15,13 @@ struct Window {
     std::vector<double> room{};
 };
 
-/// Two race-tracks (all within their radius of a ribbon) keep clear if, at a distance dx beyond the
-/// edge of one ribbon and dy beyond that of the other, their axes differ in height by
-/// sqrt(R^2 - dx^2 - dy^2), R being the sum of the radii. We ask for the sum of a term in x and one
-/// in y, sqrt(R^2 - dx^2) + sqrt(R^2 - dy^2) - R, which is never less, since with p and q for the
-/// first two as shares of R, (p + q - 1)^2 - (p^2 + q^2 - 1) = 2 (1 - p)(1 - q) >= 0. Returns the
-/// term of `crossed` with R less the radius of the other yarn taken from it.
-Window window_of(const RaceTrack &crossed, double other_radius, double step, int places) {
+/// Two yarns (all within their radius of a ribbon) keep clear if, at a distance dx beyond the edge
+/// of one ribbon and dy beyond that of the other, their axes differ in height by sqrt(R^2 - dx^2 -
+/// dy^2), R being the sum of the radii. We ask for the sum of a term in x and one in y, sqrt(R^2 -
+/// dx^2) + sqrt(R^2 - dy^2) - R, which is never less, since with p and q for the first two as
+/// shares of R, (p + q - 1)^2 - (p^2 + q^2 - 1) = 2 (1 - p)(1 - q) >= 0. Returns the term of
+/// `crossed` with the radius of the other yarn taken from it.
+Window window_of(const YarnSection &crossed, double other_radius, double step, int places) {
     const double sum = crossed.radius + other_radius;
     Window window;
     window.reach = std::min(static_cast<int>((crossed.half_flat + sum) / step), places / 2 - 1);
@@ -44,7 +44,7 @@ class Solver {
   public:
     explicit Solver(const PathProblem &problem)
         : draft_(problem.draft), points_(problem.points), ny_(draft_.picks * points_),
-          nx_(draft_.ends * points_), radius_(problem.warp.radius + problem.weft.radius),
+          nx_(draft_.ends * points_), apart_(problem.warp.radius + problem.weft.radius),
           across_weft_(
               window_of(problem.weft, problem.warp.radius, problem.weft_spacing / points_, ny_)),
           across_warp_(
@@ -54,8 +54,8 @@ class Solver {
 
     /// Warp yarns, then weft yarns.
     std::vector<double> solve() {
-        constexpr int kIterations = 8000, kPolish = 200;
-        const double enough = 1e-7 * radius_;
+        constexpr int kIterations = 8000, kPolish = 10000;
+        const double enough = 1e-7 * apart_;
         std::vector<double> now = start(), next, ahead = now;
         double momentum = 1;
         for (int i = 0; i < kIterations; ++i) {
@@ -79,7 +79,7 @@ class Solver {
         }
         for (int i = 0; i < kPolish; ++i) {
             overlap_ = project(now);
-            if (overlap_ <= 1e-4 * radius_)
+            if (overlap_ <= 1e-4 * apart_)
                 break;
         }
         return now;
@@ -104,10 +104,10 @@ class Solver {
             static_cast<std::size_t>(draft_.picks) * static_cast<std::size_t>(nx_));
         for (int e = 0; e < draft_.ends; ++e)
             for (int k = 0; k < ny_; ++k)
-                z[warp_at(e, k)] = (draft_.up(e, k / points_) ? 0.5 : -0.5) * radius_;
+                z[warp_at(e, k)] = (draft_.up(e, k / points_) ? 0.5 : -0.5) * apart_;
         for (int p = 0; p < draft_.picks; ++p)
             for (int k = 0; k < nx_; ++k)
-                z[weft_at(p, k)] = (draft_.up(k / points_, p) ? -0.5 : 0.5) * radius_;
+                z[weft_at(p, k)] = (draft_.up(k / points_, p) ? -0.5 : 0.5) * apart_;
         return z;
     }
 
@@ -187,7 +187,7 @@ class Solver {
                     slope += pull_[1];
                 }
             (force > 0 ? high : low) = level;
-            if (std::abs(force) < 1e-9 * radius_ * std::min(pull_[0], pull_[1]))
+            if (std::abs(force) < 1e-9 * apart_ * std::min(pull_[0], pull_[1]))
                 break;
             const double newton = level - force / std::max(slope, std::min(pull_[0], pull_[1]));
             level = newton > low && newton < high ? newton : (low + high) / 2;
@@ -197,7 +197,7 @@ class Solver {
 
     const Draft &draft_;
     int points_, ny_, nx_;
-    double radius_;
+    double apart_;
     Window across_weft_, across_warp_;
     double bending_, overlap_ = 0;
     std::array<double, 2> pull_; // warp, weft

@@ -12,7 +12,7 @@ namespace tsuya::lab::detail {
 struct PathProblem {
     Draft draft{};
     double warp_spacing = 0, weft_spacing = 0; ///< metres: of ends along x, of picks along y
-    RaceTrack warp, weft;
+    YarnSection warp{}, weft{};
     int points = 12;                           ///< per crossing, even
     double stiffness_length = 0;               ///< share of a crossing
     double warp_tension = 1, weft_tension = 1; ///< of a yarn; the ratio matters

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the filaments of a yarn lie in its section.
+/// The section of a yarn, and where its filaments lie in it.
 
 #include <vector>
 
@@ -8,34 +8,44 @@
 
 namespace tsuya::lab::detail {
 
-/// All within `radius` of a segment of `2 half_flat`: two half circles and what is between them.
-struct RaceTrack {
+/// A race-track, all within `radius` of a segment of `2 half_flat`: two half circles and what is
+/// between them.
+struct YarnSection {
     double half_flat = 0; ///< metres, >= 0
     double radius = 0;    ///< metres, > 0
 
-    RaceTrack(double width, double thickness)
-        : half_flat((width - thickness) / 2), radius(thickness / 2) {}
+    static YarnSection of(double width, double thickness) {
+        return {(width - thickness) / 2, thickness / 2};
+    }
+    double half_width() const { return half_flat + radius; }
     double area() const;
+    double perimeter() const;
 };
 
-/// A ring of filaments: a race-track of the same segment, evenly filled.
+/// A ring of filaments, evenly filled: the centres are those of an outline.
 struct FilamentRing {
-    double radius = 0; ///< of the centres about the segment; 0: on the segment, which never turns
+    YarnSection outline{}; ///< of radius 0: a row on the segment, which never turns
+    double half_chord = 0; ///< half the least distance of neighbours in the section, metres
     int count = 0;
 };
 
 struct FilamentPacking {
     double filament_radius = 0; ///< metres
-    double slack = 0;           ///< a centre may move by this much and touch no other filament
+    double slack = 0;           ///< a centre may move by this much and keep the others' distance
     std::vector<FilamentRing> rings{};
 };
 
-/// `count` filaments as thick as they can be in rings a filament apart, less 3 % to move in.
-FilamentPacking pack_filaments(const RaceTrack &section, int count);
+/// `count` filaments as thick as they can be in rings a filament apart, less 4 % to move in. Each
+/// two are apart by 2.5 % of the sum of their radii or more, and within the section by 1 %. Twist
+/// inclines the filaments of a ring, which need more room in it then.
+FilamentPacking pack_filaments(const YarnSection &section, int count, double twist_per_m = 0);
+
+/// The section of a yarn whose neighbours are `spacing` apart. One that is wider than that is
+/// pressed: as wide as the spacing, and as thick as the same filaments need then.
+YarnSection press(const YarnSection &section, double spacing, int filaments, double twist_per_m);
 
 /// The place in a ring at `phase` (one round is 1, any value): across the yarn and along its
-/// normal. Places a phase of 1 / count apart are at least two filament radii apart.
-glm::dvec2 ring_place(const RaceTrack &section, const FilamentRing &ring, double filament_radius,
-                      double phase);
+/// normal. Places a phase of 1 / count apart are at least two half chords apart.
+glm::dvec2 ring_place(const FilamentRing &ring, double phase);
 
 } // namespace tsuya::lab::detail

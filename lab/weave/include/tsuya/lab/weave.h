@@ -8,7 +8,7 @@
 ///     name = "my satin"
 ///     [warp]                     # [weft] alike
 ///     per_cm = 76                # ends or picks per centimetre
-///     width_mm = 0.125           # of a yarn, in the plane of the cloth
+///     width_mm = 0.125           # of a yarn by itself; wider than 10 / per_cm: they are pressed
 ///     flattening = 0.4           # thickness / width
 ///     filaments = 24
 ///     section = "round"          # triangular, trilobal
@@ -31,11 +31,13 @@
 
 namespace tsuya::lab {
 
-/// One yarn system, warp or weft. The section of the yarn is a race-track: a rectangle between two
-/// half circles, `width` across and `width * flattening` thick.
+/// One yarn system, warp or weft. The section of a yarn by itself is a race-track: a rectangle
+/// between two half circles, `width` across and `width * flattening` thick. In the cloth, yarns
+/// that are wider than their spacing press each other flat: each is as wide as the spacing, thicker
+/// by as much as its filaments need then, and its sides lie against its neighbours.
 struct Yarn {
     double per_cm = 40;                               ///< ends or picks, 1 to 500
-    double width = 0.2e-3;                            ///< metres, at most the spacing
+    double width = 0.2e-3;                            ///< metres, at most kMostPressed spacings
     double flattening = 0.3;                          ///< thickness / width, 0.02 to 1
     int filaments = 36;                               ///< 1 to 500
     FilamentSection section = FilamentSection::round; ///< of a filament
@@ -60,6 +62,9 @@ struct Yarn {
     double thickness() const { return width * flattening; }
 };
 
+/// How many times as wide as their spacing yarns may be.
+inline constexpr double kMostPressed = 2;
+
 /// A woven cloth: how its yarns cross, and the yarns.
 struct Weave {
     std::string name{};
@@ -67,7 +72,8 @@ struct Weave {
     Yarn warp{}, weft{};
 };
 
-/// `black polyester satin`, `silk charmeuse`, `polyester taffeta`, `twill lining`, `shot silk`.
+/// `black polyester satin`, `silk charmeuse`, `polyester taffeta`, `silk habotai`, `twill lining`,
+/// `shot silk`.
 std::vector<std::string> weave_names();
 /// A preset. Throws Error naming `where` with the names that would be accepted.
 Weave weave(std::string_view name, const std::string &where = "weave");
@@ -79,8 +85,8 @@ Weave weave(std::string_view name, const std::string &where = "weave");
 /// system). Throws Error with file:line:column; problems of a draft as a whole name the file.
 Weave read_weave(const std::filesystem::path &file);
 
-/// Throws Error naming `where` and the member: a number out of its range, yarns wider than their
-/// spacing, or a draft that does not hold (check_draft).
+/// Throws Error naming `where` and the member: a number out of its range, yarns wider than twice
+/// their spacing, or a draft that does not hold (check_draft).
 void check_weave(const Weave &weave, const std::string &where);
 
 /// What the reflectance of the cloth may claim: orthotropic if the draft is its own mirror image

@@ -11,8 +11,10 @@
 /// the condition that no two yarns come nearer than half the sum of their thicknesses. So floats
 /// are nearly straight, and the crimp divides itself between warp and weft by Yarn::tension.
 ///
-/// **Filaments** lie in rings parallel to the race-track section of their yarn, so that twist moves
-/// each along its ring and they never meet.
+/// **Filaments** lie in rings parallel to the section of their yarn, so that twist moves each along
+/// its ring and they never touch: any two are apart by about 1 % of the sum of their radii. A yarn
+/// that is wider than the spacing is pressed by its neighbours (see Yarn), and its filaments, which
+/// stay as thick as they are, move into rings of the pressed section.
 
 #include <cstdint>
 #include <vector>
@@ -44,12 +46,17 @@ struct WeaveReport {
     double warp_on_face = 0;     ///< share of the plane where warp is what is seen from above
     double weft_on_face = 0;     ///< the same of weft; the two sum to `cover`
     double thickness = 0;        ///< of the cloth
+    double warp_thickness = 0;   ///< of a warp yarn as it lies in the cloth
+    double weft_thickness = 0;   ///< the same of weft
     double warp_weft_gap = 0;    ///< least distance between surfaces; < 0 where they overlap
-    double neighbour_gap = 0;    ///< least distance between yarns of the same system
+    double neighbour_gap = 0;    ///< least distance between yarns of the same system; 0: pressed
     double warp_crimp = 0;       ///< length of a warp yarn over that of the cloth, less 1
     double weft_crimp = 0;       ///< the same of weft
     double warp_fill = 0;        ///< share of a warp yarn's section that filaments fill
     double weft_fill = 0;        ///< the same of weft
+    double warp_decitex = 0;     ///< of a warp yarn: what its filaments weigh, grams per 10 km
+    double weft_decitex = 0;     ///< the same of weft
+    double mass_per_m2 = 0;      ///< of the cloth, kg, with the length that crimp and twist take up
     double warp_twist_per_m = 0; ///< turns per metre after rounding to whole turns in the repeat
     double weft_twist_per_m = 0; ///< the same of weft
 };
