@@ -20,7 +20,7 @@ const std::vector<std::string> kAxisNames{"lamp_theta", "lamp_phi", "camera", "s
 /// The file that a key names.
 std::filesystem::path existing_file(const Section &section, const std::filesystem::path &folder,
                                     const char *key, const std::string &expected) {
-    const std::filesystem::path file = folder / section.required_text(key);
+    std::filesystem::path file = folder / section.required_text(key);
     if (!std::filesystem::is_regular_file(file))
         section.problem(key, "there is no file '" + file.string() + "'", "expected " + expected);
     return file;

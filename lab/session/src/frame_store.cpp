@@ -45,7 +45,7 @@ fs::path FrameStore::place_for(std::optional<std::size_t> number) {
         while (fs::exists(file));
         return file;
     }
-    const fs::path file = frames / numbered("%06zu", *number, camera_.extension);
+    fs::path file = frames / numbered("%06zu", *number, camera_.extension);
     if (fs::exists(file))
         reject(number, file, "it was taken by a run that ended before it was confirmed");
     return file;
