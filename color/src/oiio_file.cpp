@@ -121,7 +121,9 @@ void write_exr_picture(const std::filesystem::path &path, const OutputPicture &p
 InputPicture read_picture(const std::filesystem::path &path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored))
-        throw Error({"there is no such file", path.string(), "expected a readable picture"});
+        throw Error({std::filesystem::exists(path, ignored) ? "it is no regular file"
+                                                            : "there is no such file",
+                     path.string(), "expected a readable picture"});
     use_threads_of_arena();
     const auto in = OIIO::ImageInput::open(path.string());
     if (!in)

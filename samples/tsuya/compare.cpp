@@ -41,8 +41,10 @@ struct Compare final : Command {
         o.option("--lamps", &lamps, "A,B,...", "two or more of `tsuya list lamps`, or F.csv")
             .with_commas()
             .required();
-        o.option("-o,--output", &output, "SHEET.png", "the pictures side by side").required();
-        o.option("--report", &report, "FILE.json", "file for the colour differences");
+        o.option("-o,--output", &output, "SHEET.png", "the pictures side by side")
+            .required()
+            .result();
+        o.option("--report", &report, "FILE.json", "file for the colour differences").result();
         o.flag("--json", &json, "print the colour differences as JSON");
         look.add_to(o);
         add_threads(o, threads);

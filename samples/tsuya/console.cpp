@@ -59,6 +59,7 @@ ProgressMode parse_progress_mode(const std::string &name) {
 }
 
 void watch_signals() {
+    signal(SIGUSR1, SIG_IGN); // a render that has begun listens to it, and nothing dies of it
     handle_signals([](int) {
         constexpr std::string_view kText = "\ntsuya: interrupted\n";
         [[maybe_unused]] const auto told = write(STDERR_FILENO, kText.data(), kText.size());

@@ -46,7 +46,8 @@ struct FabricEvaluate final : Command {
                  "(default all with --reflectance, else surface)")
             .one_of({"all", "surface", "body"});
         o.option("--values", &values_file, "VALUES.csv",
-                 "file for every row of the table beside the models' values");
+                 "file for every row of the table beside the models' values")
+            .result();
         o.flag("--json", &json, "print the error measures as JSON");
         o.example("tsuya fabric evaluate black_satin.fabric.toml --against black_satin.csv "
                   "--model all");

@@ -27,7 +27,7 @@ struct FabricFit final : Command {
 
     void options(Options &o) override {
         o.argument(&table_file, "TABLE.csv", "measured reflectance").required();
-        o.option("-o,--output", &output, "F.fabric.toml", "the fabric").required();
+        o.option("-o,--output", &output, "F.fabric.toml", "the fabric").required().result();
         o.option("--name", &name, "NAME", "name of the fabric; without it, that of the table");
         o.option("--f0", &f0, "F0", "reflectance of the fibre at normal incidence").range(1e-6, 1);
         o.option(

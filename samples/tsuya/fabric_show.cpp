@@ -43,7 +43,7 @@ struct FabricShow final : Command {
         Option &of_weave = o.option("--weave", &weave_name, "WEAVE",
                                     "WEAVE.toml, DRAFT.wif or a preset, in place of a fabric");
         o.one_of(of_fabric, of_weave);
-        o.option("-o,--output", &output, "PICTURE", "PICTURE.svg or .png").required();
+        o.option("-o,--output", &output, "PICTURE", "PICTURE.svg or .png").required().result();
         o.option("--view", &view, "VIEW", "what is drawn of a fabric")
             .one_of({"lobes", "bodies", "map", "rings"})
             .needs(of_fabric);

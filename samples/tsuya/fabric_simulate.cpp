@@ -41,10 +41,11 @@ struct FabricSimulate final : Command {
 
     void options(Options &o) override {
         o.argument(&weave_name, "WEAVE", "WEAVE.toml, DRAFT.wif or a preset").required();
-        o.option("-o,--output", &output, "TABLE.csv", "simulated reflectance").required();
+        o.option("-o,--output", &output, "TABLE.csv", "simulated reflectance").required().result();
         o.option("--directions", &directions_name, "SET",
                  "directions of light and view: normal, light along the normal; paper, the set of "
-                 "Takeda et al.; or a table of reflectance, for its directions");
+                 "Takeda et al.; or a table of reflectance, for its directions")
+            .or_file();
         o.option("--step", &step_deg, "DEGREES",
                  "angle between views: 5 for normal; 3 for paper (theta; about 5/3 of it in phi)")
             .range(0.5, 45);

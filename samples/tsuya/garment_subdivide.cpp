@@ -28,7 +28,8 @@ struct GarmentSubdivide final : Command {
         o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
         o.option("-o,--output", &output, "OUT.obj|OUT.ply",
                  "the triangles; a PLY has warp and weft, too")
-            .required();
+            .required()
+            .result();
         o.option("--unit", &unit, "UNIT", "length unit of the mesh: m, dm, cm, mm, in");
         const Option &levels =
             o.option("--level", &level, "N", "level of subdivision: each edge is cut into 2^N")

@@ -9,6 +9,10 @@ namespace tsuya::program {
 struct JsonWriter {
     using Tree = nlohmann::ordered_json;
 
+    // Bytes that are no UTF-8, as names of files may have, become U+FFFD.
+    static std::string text(const Json &json, int indent) {
+        return tree(json).dump(indent, ' ', false, Tree::error_handler_t::replace);
+    }
     static Tree tree(const Json &json) {
         return std::visit([](const auto &value) { return tree_of(value); }, json.value_);
     }
@@ -58,8 +62,8 @@ void Json::update(const Json &other) {
         (*this)[member.key] = member.value;
 }
 
-std::string Json::text() const { return JsonWriter::tree(*this).dump(2); }
+std::string Json::text() const { return JsonWriter::text(*this, 2); }
 
-std::string Json::one_line() const { return JsonWriter::tree(*this).dump(); }
+std::string Json::one_line() const { return JsonWriter::text(*this, -1); }
 
 } // namespace tsuya::program

@@ -151,6 +151,32 @@ void check_company(const Option &option) {
                              "expected both or neither"});
 }
 
+bool names_file(const Option &option) {
+    return option.may_be_file || std::visit(
+                                     []<class T>(const T *) {
+                                         using Element = typename ElementOf<T>::Type;
+                                         return std::is_same_v<Element, std::filesystem::path>;
+                                     },
+                                     option.field);
+}
+
+bool is_same_file(const std::filesystem::path &a, const std::filesystem::path &b) {
+    std::error_code code;
+    if (std::filesystem::equivalent(a, b, code))
+        return true;
+    const auto whole = std::filesystem::weakly_canonical(a, code);
+    return !code && whole == std::filesystem::weakly_canonical(b, code) && !code;
+}
+
+/// Throws WrongCall if the result would replace a file of another option.
+void check_result(const Option &result, const std::deque<Option> &all) {
+    for (const Option &other : all)
+        for (const std::string &word : other.words)
+            if (&other != &result && names_file(other) && is_same_file(result.words.front(), word))
+                throw WrongCall({"it would replace the file of " + name_of(other), name_of(result),
+                                 "expected another name"});
+}
+
 } // namespace
 
 std::string name_of(const Option &option) {
@@ -241,6 +267,16 @@ Option &Option::exactly(std::size_t number) {
     return *this;
 }
 
+Option &Option::result() {
+    is_result = true;
+    return *this;
+}
+
+Option &Option::or_file() {
+    may_be_file = true;
+    return *this;
+}
+
 Option &Option::needs(const Option &other) {
     needed.push_back(&other);
     return *this;
@@ -277,6 +313,9 @@ void Options::fill_fields() const {
             throw WrongCall(
                 {"neither " + name_of(*first) + " nor " + name_of(*second) + " is given", "",
                  "expected one of the two"});
+    for (const Option &option : all_)
+        if (option.is_result && option.given)
+            check_result(option, all_);
     for (const Option &option : all_)
         if (option.given)
             std::visit([&](auto *field) { set(option, *field); }, option.field);

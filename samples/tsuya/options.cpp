@@ -76,6 +76,7 @@ class Parser {
         } catch (const CLI::CallForVersion &version) {
             return {.text = std::string(version.what()) + "\n"};
         } catch (const CLI::CallForHelp &) {
+            refuse_unknown_command(called());
             return {.text = help_of(called())};
         } catch (const CLI::ArgumentMismatch &error) { // its text begins with the option's name
             const std::string text = error.what();
@@ -129,6 +130,15 @@ class Parser {
         return entries;
     }
 
+    std::vector<std::string> names_of_members(const Node &group) const {
+        std::vector<std::string> names;
+        for (const CommandEntry &entry : members(group)) {
+            const std::string name = entry.name;
+            names.push_back(name.substr(name.find(' ') + 1));
+        }
+        return names;
+    }
+
     std::string help_of(const Node &node) const {
         if (!node.entry)
             return help_of_program(table_, node.options);
@@ -145,23 +155,24 @@ class Parser {
 
     /// Throws WrongCall for words that no option took, and where no command is named.
     void refuse_leftovers(const Node &node) const {
-        std::vector<std::string> names;
-        for (const CommandEntry &entry : members(node)) {
-            const std::string name = entry.name;
-            names.push_back(name.substr(name.find(' ') + 1));
-        }
         const std::vector<std::string> words = app_.remaining(true);
         if (words.empty()) {
             if (!node.command)
-                throw WrongCall({"no command is named", "", accepted_names("", names)});
+                throw WrongCall(
+                    {"no command is named", "", accepted_names("", names_of_members(node))});
         } else if (words.front().starts_with('-')) {
             refuse_option(node, words.front().substr(0, words.front().find('=')));
-        } else if (!node.command) {
-            throw WrongCall({"unknown command '" + words.front() + "'", "",
-                             accepted_names(words.front(), names)});
         } else {
+            refuse_unknown_command(node);
             throw WrongCall({"unexpected word '" + words.front() + "'", "", see_help(node)});
         }
+    }
+
+    void refuse_unknown_command(const Node &node) const {
+        const std::vector<std::string> words = app_.remaining(true);
+        if (!node.command && !words.empty() && !words.front().starts_with('-'))
+            throw WrongCall({"unknown command '" + words.front() + "'", "",
+                             accepted_names(words.front(), names_of_members(node))});
     }
 
     [[noreturn]] void refuse_option(const Node &node, const std::string &name) const {

@@ -51,6 +51,10 @@ struct Option {
     Option &with_commas();
     /// As many values, no more and no fewer.
     Option &exactly(std::size_t count);
+    /// A file that the command writes: it must not be one that the call reads, nor another result.
+    Option &result();
+    /// A text that may also be the name of a file that is read.
+    Option &or_file();
     Option &needs(const Option &other);
     Option &excludes(const Option &other);
 
@@ -58,6 +62,7 @@ struct Option {
     std::vector<std::string> words{};
 
     bool is_required = false, has_commas = false, is_open = false;
+    bool is_result = false, may_be_file = false;
     std::optional<double> least{}, most{};
     std::optional<std::size_t> count{};
     std::vector<std::string> choices{};
@@ -83,7 +88,8 @@ class Options {
     const std::string &notes() const { return notes_; }
 
     /// Puts the words that were given into the fields. Throws WrongCall for what breaks the rules
-    /// of the options: one that is missing or must not be given, a word that is no such value.
+    /// of the options: one that is missing or must not be given, a word that is no such value, a
+    /// result that would replace a file that is read.
     void fill_fields() const;
 
   private:

@@ -25,7 +25,7 @@ struct Relight final : Command {
                  "name of `tsuya list lamps` or F.csv for all light groups; GROUP=LAMP for one "
                  "of them; may be repeated")
             .required();
-        o.option("-o,--output", &output, "OUT.png", "the picture").required();
+        o.option("-o,--output", &output, "OUT.png", "the picture").required().result();
         o.option("--bits", &bits, "N", "bits of a sample of the PNG").one_of({"8", "16"});
         look.add_to(o);
         add_threads(o, threads);

@@ -32,7 +32,8 @@ struct Render final : Command {
     void options(Options &o) override {
         o.argument(&scene, "SCENE.toml", "scene file").required();
         const Option &out = o.option("-o,--output", &output, "OUT.exr",
-                                     "spectral light transport; required unless --explain");
+                                     "spectral light transport; required unless --explain")
+                                .result();
         Option &spp = o.option("--spp", &samples, "N", "samples per pixel").range(1, kMostSamples);
         Option &mean = o.option("--error", &error, "E",
                                 "render until the mean relative standard error is below E")
@@ -60,7 +61,9 @@ struct Render final : Command {
             .range(0, 1e6);
         o.flag("--resume", &resume, "go on from OUT.exr.checkpoint");
         o.flag("--explain", &explains, "print the plan, and do not render");
-        o.option("--stats", &stats, "FILE.json", "file for time, rays and error").needs(out);
+        o.option("--stats", &stats, "FILE.json", "file for time, rays and error")
+            .needs(out)
+            .result();
         o.example("tsuya render dress.scene.toml -o dress.exr --spp 128");
         o.notes("Options replace the values of the scene file. SIGINT, SIGTERM and SIGHUP leave "
                 "what there is in OUT.exr, and OUT.exr.checkpoint for --resume; a render that is "
@@ -159,7 +162,7 @@ struct Render final : Command {
     /// Before the scene is read.
     void check_output() const {
         if (output.empty())
-            throw Error({"no output is named", "-o", "expected -o OUT.exr, or --explain"});
+            throw WrongCall({"it is missing", "--output", "expected -o OUT.exr, or --explain"});
         scene::check_output_file(output, {".exr"});
     }
 

@@ -19,6 +19,9 @@ int run(Command &command, Console &console) {
             return kWrongInput;
         }
         return status;
+    } catch (const WrongCall &wrong) { // rules that the options do not know
+        console.errors(wrong);
+        return kWrongCall;
     } catch (const Error &error) {
         console.errors(error);
         return kWrongInput;

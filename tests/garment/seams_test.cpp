@@ -247,6 +247,8 @@ TEST(Check, ADressInCentimetresOrMillimetresIsNamed) {
     EXPECT_NE(action(130).find("in cm"), std::string::npos);
     EXPECT_NE(action(1300).find("in mm"), std::string::npos);
     EXPECT_NE(action(13).find("in dm"), std::string::npos);
+    for (const double height : {0.01, 13.0}) // a caller may have stated the unit
+        EXPECT_EQ(action(height).find("read as metres"), std::string::npos) << action(height);
 }
 
 TEST(Check, EveryFindingSaysWhatIsDone) {

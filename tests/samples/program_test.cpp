@@ -223,7 +223,7 @@ TEST(Program, RelightsAndCompares) {
     EXPECT_EQ(relit.out, png + "\n");
     expect_picture(png, 16, 20);
     EXPECT_EQ(run(scratch, {"relight", exr, "--lamp", "rim=A", "-o", png}).status, 1);
-    EXPECT_EQ(run(scratch, {"relight", png, "--lamp", "A", "-o", png}).status, 1);
+    EXPECT_EQ(run(scratch, {"relight", png, "--lamp", "A", "-o", png + ".png"}).status, 1);
 
     const std::string sheet = (scratch / "sheet.png").string(),
                       report = (scratch / "report.json").string();

@@ -64,10 +64,10 @@ void find_units(const Report &report, Findings &findings) {
     if (height >= kLowest && height <= kHighest)
         return;
     const std::string unit = likely_unit(height);
-    findings.add(Severity::warning, "unusual_size",
-                 "the mesh measures " + number(height) + " m at most",
-                 unit.empty() ? "read as metres; state the unit of the file"
-                              : "read as metres; if the file is in " + unit + ", state that unit");
+    findings.add(
+        Severity::warning, "unusual_size", "the mesh measures " + number(height) + " m at most",
+        unit.empty() ? "kept; state the unit of the file if it is another"
+                     : "kept; if the file is in " + unit + " and was read in m, state that unit");
 }
 
 void find_topology(const Report &r, Findings &f) {

@@ -92,8 +92,9 @@ double irradiance(const RectangleLight &light, const glm::dvec3 &point, const gl
 RectangleLight make_light(const Softbox &box) {
     const glm::dvec3 towards = box.target - box.centre;
     const double distance = glm::length(towards);
-    need(distance > 0 && std::isfinite(distance), "the light is at its target", "softbox",
-         "expected centre and target apart");
+    need(std::isfinite(distance), "the light is too far from its target", "softbox",
+         "expected centre and target within 1e+09 m");
+    need(distance > 0, "the light is at its target", "softbox", "expected centre and target apart");
     need(box.width > 0 && box.height > 0 && std::isfinite(box.width + box.height),
          "the light has no area", "softbox", "expected width and height above 0 metres");
     need(box.strength >= 0 && std::isfinite(box.strength), "the strength is wrong", "softbox",

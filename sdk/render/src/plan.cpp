@@ -52,8 +52,8 @@ std::string explain(const Plan &p) {
     std::string text = "bounces: up to " + std::to_string(p.max_bounces) + "\n";
     text += "lights: " + std::to_string(p.lights.size()) + " rectangles" +
             (p.environment ? ", environment" : "") + "\n";
-    text += std::string("parts: ") + (p.any_diffuse ? "diffuse " : "") +
-            (p.any_specular ? "specular" : "") + "\n";
+    text += std::string("parts:") + (p.any_diffuse ? " diffuse" : "") +
+            (p.any_specular ? " specular" : "") + "\n";
     for (const Skip &s : p.skips)
         text += "skipped: " + s.what + "; saves " + s.saves + "\n";
     return text;

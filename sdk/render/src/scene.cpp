@@ -60,6 +60,21 @@ struct SceneCheck {
             check_shape(scene.surfaces[i], "surfaces[" + std::to_string(i) + "]");
     }
 
+    // Of what is rendered.
+    void fabrics() {
+        std::vector<bool> used(scene.fabrics.size(), false);
+        for (const Object &object : scene.objects)
+            if (object.fabric.value < used.size())
+                used[object.fabric.value] = true;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            try {
+                if (used[i])
+                    check_fabric(scene.fabrics[i], "fabrics." + scene.fabrics[i].name);
+            } catch (const Error &error) {
+                problems.add(error);
+            }
+    }
+
     void check_shape(const Surface &surface, const std::string &where) {
         try {
             check_surface(surface, where);
@@ -139,6 +154,7 @@ struct SceneCheck {
 void check_scene(const Scene &scene) {
     SceneCheck check{scene};
     check.objects();
+    check.fabrics();
     check.lights();
     check.camera();
     check.problems.throw_if_any();

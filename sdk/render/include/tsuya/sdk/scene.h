@@ -72,8 +72,8 @@ struct Scene {
     Camera camera{};
 };
 
-/// Throws Error with every broken rule of the scene: an index out of range, a light without area, a
-/// radiance or length out of its bounds, a camera that looks nowhere, no light, no object.
+/// Throws Error with every broken rule, also of fabrics in use: an index out of range, no light, no
+/// object, a light without area, a radiance or length out of bounds, a camera that looks nowhere.
 void check_scene(const Scene &scene);
 
 } // namespace tsuya

@@ -1,0 +1,102 @@
+// Calls that would lose something of the user's, and calls that are only nearly right.
+#include <gtest/gtest.h>
+
+#include <signal.h>
+
+#include "samples/program_run.h"
+#include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya::program {
+namespace {
+
+namespace fs = std::filesystem;
+using scene::Scratch;
+
+TEST(WrongCall, NoResultReplacesWhatTheCallReads) {
+    const Scratch scratch;
+    const fs::path fabrics = scene::data_folder() / "fabrics";
+    const std::string table = (scratch / "t.csv").string();
+    fs::copy_file(fabrics / "black_taffeta.csv", table);
+    const std::string mesh = scratch.write("cloth.obj", scene::cloth_obj()).string();
+    const std::string small = scratch.write("small.scene.toml", scene::small_scene("")).string();
+    const std::string linked = (scratch / "linked.obj").string();
+    fs::create_symlink("cloth.obj", linked);
+    const std::string twice = (scratch / "new.exr").string();
+    const std::vector<std::pair<std::string, std::vector<std::string>>> calls = {
+        {table,
+         {"fabric", "evaluate", (fabrics / "black_taffeta.fabric.toml").string(), "--against",
+          table, "--values", table}},
+        {table, {"fabric", "simulate", "polyester taffeta", "--directions", table, "-o", table}},
+        {mesh, {"garment", "subdivide", mesh, "-o", linked}},
+        {small, {"render", small, "-o", twice, "--stats", small}},
+        {small, {"render", small, "-o", twice, "--stats", twice}}};
+    for (const auto &[file, call] : calls) {
+        const std::string before = read_file(file);
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find("it would replace the file of "), std::string::npos)
+            << outcome.err;
+        EXPECT_EQ(read_file(file), before) << file;
+    }
+    EXPECT_FALSE(fs::exists(twice));
+    // The same names in texts that are no files
+    EXPECT_EQ(run(scratch,
+                  {"fabric", "fit", table, "--name", "f.toml", "-o", (scratch / "f.toml").string()})
+                  .status,
+              0);
+}
+
+TEST(WrongCall, HelpOfACommandThatIsNotThere) {
+    const Scratch scratch;
+    for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
+             {"fabric", "exprot", "--help"}, {"tyron", "--help"}, {"fabric", "exprot"}}) {
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_NE(outcome.err.find("unknown command"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(run(scratch, {"fabric", "--help"}).status, 0);
+}
+
+TEST(WrongCall, RenderWithoutAPlaceForTheResult) {
+    const Scratch scratch;
+    const Outcome outcome =
+        run(scratch, {"render", scratch.write("s.toml", scene::small_scene("")).string()});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("--output: it is missing"), std::string::npos) << outcome.err;
+}
+
+// A plan is printed of a scene that can be rendered, and of no other.
+TEST(Explain, RefusesWhatARenderRefuses) {
+    const Scratch scratch;
+    scratch.write("cloth.obj", scene::cloth_obj());
+    std::string text = scene::small_scene();
+    text.replace(text.find("dye = \"crimson\""), 15, "reflectance = 0.6\ntransmittance = 0.6");
+    const std::string file = scratch.write("a.scene.toml", text).string();
+    const Outcome outcome = run(scratch, {"render", file, "--explain"});
+    EXPECT_EQ(outcome.status, 1) << outcome.out;
+    EXPECT_NE(outcome.err.find("dye and transmittance"), std::string::npos) << outcome.err;
+}
+
+// A file's name is bytes, JSON is UTF-8.
+TEST(Reports, NameFilesThatAreNoUtf8) {
+    const Scratch scratch;
+    const std::string mesh = scratch.write("\xe9.obj", scene::cloth_obj()).string();
+    const Outcome outcome = run(scratch, {"garment", "check", mesh, "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("\xef\xbf\xbd.obj"), std::string::npos) << outcome.out;
+}
+
+// SIGUSR1 asks renders for the picture so far. Sent to any other command it ends nothing.
+TEST(Signals, OtherCommandsOutliveSigusr1) {
+    const Scratch scratch;
+    const Outcome outcome =
+        run_program({"fabric", "simulate", "polyester taffeta", "--photons", "200000", "--progress",
+                     "plain", "-o", (scratch / "t.csv").string()},
+                    scratch.folder(), once(SIGUSR1, "%"));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+} // namespace
+} // namespace tsuya::program
