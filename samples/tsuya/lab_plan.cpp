@@ -23,11 +23,12 @@ struct LabPlan final : Command {
 
     void options(Options &o) override {
         o.argument(&rig_file, "RIG.toml", "rig file").required();
-        o.option("-o,--output", &output, "PLAN.jsonl", "plan of the session").required();
+        o.option("-o,--output", &output, "PLAN.jsonl", "plan of the session").required().result();
         o.option("--views", &views, "VIEWS",
                  "directions to measure: few:STEP, views every STEP degrees under light along the "
                  "normal; paper, the set of Takeda et al.; or a table of reflectance, for its "
-                 "directions");
+                 "directions")
+            .or_file();
         o.option("--symmetry", &symmetry, "S",
                  "symmetry of the cloth, whose repeated views few:STEP leaves out; without it, "
                  "half-turn for few:STEP, none for paper, and that of a table")

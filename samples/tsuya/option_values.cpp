@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "options.h"
+#include "same_file.h"
 
 namespace tsuya::program {
 namespace {
@@ -158,14 +159,6 @@ bool names_file(const Option &option) {
                                          return std::is_same_v<Element, std::filesystem::path>;
                                      },
                                      option.field);
-}
-
-bool is_same_file(const std::filesystem::path &a, const std::filesystem::path &b) {
-    std::error_code code;
-    if (std::filesystem::equivalent(a, b, code))
-        return true;
-    const auto whole = std::filesystem::weakly_canonical(a, code);
-    return !code && whole == std::filesystem::weakly_canonical(b, code) && !code;
 }
 
 /// Throws WrongCall if the result would replace a file of another option.

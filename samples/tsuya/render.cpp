@@ -6,6 +6,7 @@
 #include "command.h"
 #include "json_file.h"
 #include "look_options.h"
+#include "same_file.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/scene_file.h"
@@ -86,11 +87,11 @@ struct Render final : Command {
             for (scene::MeshEntry &entry : *entries)
                 if (tolerance_px)
                     entry.tolerance_px = tolerance_px;
+        if (!explains)
+            check_results(file);
         RenderSettings settings = settings_of(file);
         settings.snapshot_wanted = &watch_snapshot_signal();
         settings.snapshot = [&](const RenderResult &result) { write_snapshot(result, console); };
-        if (!explains)
-            for_each_place(file, scene::check_output_file);
         const scene::BuiltScene built = scene::build_scene(file, console.progress());
         for (const scene::MeshReport &mesh : built.reports)
             console.warnings(mesh.report, mesh.mesh.string());
@@ -166,8 +167,18 @@ struct Render final : Command {
         scene::check_output_file(output, {".exr"});
     }
 
-    void for_each_place(const scene::SceneFile &file,
-                        void (*act)(const fs::path &, const std::vector<std::string> &)) const {
+    /// What the scene names adds results, and files that they must not replace.
+    void check_results(const scene::SceneFile &file) const {
+        for_each_place(file, scene::check_output_file);
+        for_each_place(file, [&](const fs::path &place, const std::vector<std::string> &) {
+            for (const fs::path &read : file.files)
+                if (is_same_file(place, read))
+                    throw WrongCall({"it would replace a file of the scene", place.string(),
+                                     "expected another name"});
+        });
+    }
+
+    template <class Act> void for_each_place(const scene::SceneFile &file, Act &&act) const {
         act(output, {".exr"});
         for (const NamedLamp &lamp : file.output.lamps)
             act(picture_of(lamp), {});

@@ -9,7 +9,6 @@ namespace tsuya::program {
 namespace {
 
 int run(Command &command, Console &console) {
-    watch_signals();
     try {
         const Status status = command.run(console);
         console.end_line();
@@ -37,6 +36,7 @@ int run(Command &command, Console &console) {
 } // namespace
 
 int run_program(std::span<const CommandEntry> table, int argc, const char *const *argv) {
+    watch_signals();
     Console console;
     try {
         const Call call = parse_call(table, argc, argv);

@@ -47,6 +47,52 @@ TEST(WrongCall, NoResultReplacesWhatTheCallReads) {
               0);
 }
 
+TEST(WrongCall, NoResultReplacesWhatTheSceneReads) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const std::string sky = (scratch / "sky.exr").string(), out = (scratch / "out.exr").string();
+    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", sky, "--spp", "1"}).status, 0);
+    std::string text = scene::small_scene();
+    text.replace(text.find("radiance = 0.2"), 14, "picture = \"sky.exr\"");
+    scratch.write("small.scene.toml", text);
+    const std::string mesh = (scratch / "cloth.obj").string();
+    for (const auto &[file, call] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {sky, {"render", scene_file, "-o", sky, "--spp", "1"}},
+             {mesh, {"render", scene_file, "-o", out, "--stats", mesh, "--spp", "1"}}}) {
+        const std::string before = read_file(file);
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find("it would replace a file of the scene"), std::string::npos)
+            << outcome.err;
+        EXPECT_EQ(read_file(file), before) << file;
+    }
+    EXPECT_FALSE(fs::exists(out));
+}
+
+// Before the work, whoever calls: permissions say that root may write into /proc.
+TEST(WrongInput, PlacesThatCannotBeWrittenAreToldFirst) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const std::string table = (scene::data_folder() / "fabrics" / "black_taffeta.csv").string();
+    const std::string long_name = (scratch / std::string(300, 'x')).string();
+    for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
+             {"render", scene_file, "-o", "/proc/x.exr"},
+             {"render", scene_file, "-o", long_name + ".exr"},
+             {"render", scene_file, "-o",
+              (scratch / "new").string() + "/" + std::string(300, 'x') + ".exr"},
+             {"fabric", "fit", table, "-o", long_name + ".toml"},
+             {"tryon", "-o", "/proc/new"}}) {
+        std::vector<std::string> told = call;
+        told.insert(told.end(), {"--progress", "plain"});
+        const Outcome outcome = run(scratch, told);
+        EXPECT_EQ(outcome.status, 1) << call.back();
+        EXPECT_NE(outcome.err.find("written"), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.err.find('%'), std::string::npos) << outcome.err; // no work was begun
+    }
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+    EXPECT_EQ(scratch.file_count(), 2U); // the scene and its mesh
+}
+
 TEST(WrongCall, HelpOfACommandThatIsNotThere) {
     const Scratch scratch;
     for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
@@ -82,10 +128,13 @@ TEST(Explain, RefusesWhatARenderRefuses) {
 // A file's name is bytes, JSON is UTF-8.
 TEST(Reports, NameFilesThatAreNoUtf8) {
     const Scratch scratch;
-    const std::string mesh = scratch.write("\xe9.obj", scene::cloth_obj()).string();
-    const Outcome outcome = run(scratch, {"garment", "check", mesh, "--json"});
+    const fs::path fabrics = scene::data_folder() / "fabrics", table = scratch / "\xe9.csv";
+    fs::copy_file(fabrics / "black_taffeta.csv", table);
+    const Outcome outcome =
+        run(scratch, {"fabric", "evaluate", (fabrics / "black_taffeta.fabric.toml").string(),
+                      "--against", table.string(), "--json"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("\xef\xbf\xbd.obj"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("\xef\xbf\xbd.csv"), std::string::npos) << outcome.out;
 }
 
 // SIGUSR1 asks renders for the picture so far. Sent to any other command it ends nothing.

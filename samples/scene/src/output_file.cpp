@@ -1,10 +1,14 @@
 #include "tsuya/scene/output_file.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya::scene {
 namespace {
@@ -22,17 +26,35 @@ std::string joined(const std::vector<std::string> &words) {
     throw Error({what, folder.string(), "expected a folder that may be written to"});
 }
 
-} // namespace
-
-void check_output_folder(const fs::path &folder) {
+// The folder or, where it is missing, the first one above that is there.
+fs::path nearest_folder(const fs::path &folder) {
     std::error_code code;
     fs::path there = folder.empty() ? fs::path(".") : folder;
     while (!fs::exists(there, code) && there.has_relative_path())
         there = there.parent_path().empty() ? fs::path(".") : there.parent_path();
     if (!fs::is_directory(there, code))
         throw Error({"it is a file", there.string(), "expected a folder, or a new name"});
-    if (access(there.c_str(), W_OK | X_OK) != 0)
-        refuse_folder(there, "the folder may not be written to");
+    return there;
+}
+
+// The system's error number; 0: a file of that name can be written into the folder. Permissions
+// alone do not tell: nobody may write into /proc, and names have a greatest length.
+int try_writing(const fs::path &folder, const fs::path &name) {
+    const fs::path part = folder / temporary_name(name);
+    const int descriptor = ::open(part.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    if (descriptor < 0)
+        return errno;
+    ::close(descriptor);
+    ::unlink(part.c_str());
+    return 0;
+}
+
+} // namespace
+
+void check_output_folder(const fs::path &folder) {
+    const fs::path there = nearest_folder(folder);
+    if (const int code = try_writing(there, "tsuya"); code != 0)
+        refuse_folder(there, std::string("nothing can be written there: ") + std::strerror(code));
 }
 
 void prepare_output_folder(const fs::path &folder) {
@@ -55,7 +77,9 @@ void check_output_file(const fs::path &file, const std::vector<std::string> &ext
         throw Error({"it is a folder", file.string(), "expected the name of a file"});
     if (fs::exists(file, code) && access(file.c_str(), W_OK) != 0)
         throw Error({"the file may not be replaced", file.string(), "expected another name"});
-    check_output_folder(file.parent_path());
+    if (const int error = try_writing(nearest_folder(file.parent_path()), file.filename()))
+        throw Error({std::string("the file cannot be written: ") + std::strerror(error),
+                     file.string(), accepted_for_writing(error)});
 }
 
 void prepare_output_file(const fs::path &file, const std::vector<std::string> &extensions) {

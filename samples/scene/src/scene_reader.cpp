@@ -1,6 +1,7 @@
 #include "scene_reader.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
@@ -36,6 +37,7 @@ std::filesystem::path SceneReader::existing_file(const Section &section, std::st
     if (!std::filesystem::is_regular_file(path, code))
         section.problem(key, "there is no file " + path.string(),
                         "expected a path relative to the scene file");
+    file_.files.push_back(path);
     return path;
 }
 
@@ -297,7 +299,9 @@ void SceneReader::read_render() {
         section->integer("samples_per_pixel", 1, 65536)
             .value_or(stop.relative_error || stop.seconds ? 65536 : stop.samples_per_pixel);
     render.max_bounces = section->integer("max_bounces", 0, 4096).value_or(render.max_bounces);
-    render.seed = static_cast<std::uint32_t>(section->integer("seed", 0, 2147483647).value_or(0));
+    render.seed =
+        section->integer("seed", std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max())
+            .value_or(render.seed);
     if (const auto channels = section->integer("channels", 8, 32)) {
         render.channels = *channels;
         if (*channels != 8 && *channels != 16 && *channels != 32)

@@ -141,12 +141,13 @@ double Section::required_number(std::string_view key, double low, double high) c
     return number(key, low, high).value_or(std::clamp(1.0, low, high));
 }
 
-std::optional<int> Section::integer(std::string_view key, int low, int high) const {
+std::optional<std::int64_t> Section::whole_number(std::string_view key, std::int64_t low,
+                                                  std::int64_t high) const {
     if (!has(key))
         return std::nullopt;
     const auto value = table_of(table_).get(key)->value_exact<std::int64_t>();
     if (value && *value >= low && *value <= high)
-        return static_cast<int>(*value);
+        return value;
     problem(key,
             "'" + std::string(key) + "' is " + (value ? std::to_string(*value) : "not an integer"),
             "expected an integer from " + std::to_string(low) + " to " + std::to_string(high));

@@ -46,6 +46,8 @@ std::string accepted_for_writing(int code) {
         return "expected space on the disk";
     case EFBIG:
         return "expected a file system, and a limit, that allow a file of this size";
+    case ENAMETOOLONG:
+        return "expected a shorter name";
     default:
         return "expected a folder that exists and may be written to";
     }

@@ -8,9 +8,10 @@
 
 namespace tsuya::scene {
 
-/// Looks whether a file can be written or replaced, and changes nothing. Throws Error at the path
-/// unless it ends in one of `extensions` (such as `.exr`; empty: any); and if it is a folder, or
-/// its folder may not be written to or, where it is missing, created.
+/// Tries whether a file can be written or replaced, with an empty temporary file in its folder or,
+/// where that is missing, in the first one above that is there. Throws Error at the path unless it
+/// ends in one of `extensions` (such as `.exr`; empty: any), if it is a folder, and where the
+/// temporary file cannot be made.
 void check_output_file(const std::filesystem::path &file,
                        const std::vector<std::string> &extensions = {});
 

@@ -73,6 +73,7 @@ struct SceneFile {
     std::optional<Environment> environment{};
     RenderSettings render{};
     OutputEntry output{};
+    std::vector<std::filesystem::path> files{}; ///< all meshes, fabrics and pictures that it names
 };
 
 /// Reads a scene file with what it names, but for the meshes. Throws Error with up to 20 problems

@@ -3,6 +3,8 @@
 /// A TOML file: every value is read by name, every problem has its line and column, and a key that
 /// nobody reads is an unknown key.
 
+#include <concepts>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -45,7 +47,10 @@ class Section {
     double required_number(std::string_view key, double low = -std::numeric_limits<double>::max(),
                            double high = std::numeric_limits<double>::max()) const;
     /// A whole number; outside [low, high] it is a problem.
-    std::optional<int> integer(std::string_view key, int low, int high) const;
+    template <std::integral T> std::optional<T> integer(std::string_view key, T low, T high) const {
+        const std::optional<std::int64_t> value = whole_number(key, low, high);
+        return value ? std::optional(static_cast<T>(*value)) : std::nullopt;
+    }
     /// true or false.
     std::optional<bool> flag(std::string_view key) const;
     /// An array of finite numbers.
@@ -70,6 +75,9 @@ class Section {
 
   private:
     friend class Document;
+    std::optional<std::int64_t> whole_number(std::string_view key, std::int64_t low,
+                                             std::int64_t high) const;
+
     Section(detail::DocumentState *state, const void *table) : state_(state), table_(table) {}
     detail::DocumentState *state_;
     const void *table_;
