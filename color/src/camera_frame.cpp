@@ -49,6 +49,10 @@ double ResponseCurve::linear_dn(double encoded_dn) const {
     return scale * std::lerp(exposure_s[i - 1], exposure_s[i], t);
 }
 
+CameraFrame read_frame_header(const std::filesystem::path &path) {
+    return FrameInput(path).description();
+}
+
 CameraFrame read_frame(const std::filesystem::path &path, const FrameSettings &settings) {
     FrameInput input(path);
     if (!settings.response && !input.not_linear().empty())

@@ -65,6 +65,7 @@ std::unique_ptr<Command> make_fabric_paper();
 std::unique_ptr<Command> make_garment_check();
 std::unique_ptr<Command> make_garment_subdivide();
 std::unique_ptr<Command> make_lab_lines();
+std::unique_ptr<Command> make_lab_measure();
 std::unique_ptr<Command> make_lab_pulse();
 std::unique_ptr<Command> make_lab_plan();
 std::unique_ptr<Command> make_lab_run();

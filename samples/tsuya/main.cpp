@@ -35,6 +35,8 @@ constexpr std::array kCommands{
     CommandEntry{"lab resume", "Go on with a capture session", make_lab_resume},
     CommandEntry{"lab status", "How far a capture session is", make_lab_status},
     CommandEntry{"lab reset", "Acknowledge a fault of interlock or emergency stop", make_lab_reset},
+    CommandEntry{"lab measure", "Turn a session's pictures into a table of reflectance",
+                 make_lab_measure},
     CommandEntry{"list", "What can be named: lamps, dyes, fabrics, ...", make_list},
 };
 

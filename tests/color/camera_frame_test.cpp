@@ -101,6 +101,22 @@ TEST(CameraFrame, ResponseIsLinearBetweenItsPointsAndConstantBeyond) {
     EXPECT_DOUBLE_EQ(curve.linear_dn(1000), 40);
 }
 
+TEST(CameraFrame, ResponseFilesAreReadAndTheirFaultsNamed) {
+    const test::Folder folder;
+    const auto file = folder.write("r.csv", "# grey card\ndn,exposure_s\n10,0.1\n 20 , 0.3 \n");
+    const ResponseCurve curve = read_response_csv(file);
+    EXPECT_EQ(curve.dn, (std::vector<double>{10, 20}));
+    EXPECT_EQ(curve.exposure_s, (std::vector<double>{0.1, 0.3}));
+    for (const char *bad : {"10,0.1\n20,0.1\n", "10,0.1\n10,0.2\n", "10,0.1\n20\n",
+                            "10,0.1\n20,0.2,3\n", "10,0.1\n20,nan\n"}) {
+        folder.write("r.csv", bad);
+        test::expect_problem([&] { read_response_csv(file); }, file.string() + ":2:1",
+                             "dn,exposure_s");
+    }
+    folder.write("r.csv", "10,0.1\n");
+    test::expect_problem([&] { read_response_csv(file); }, file.string(), "two lines");
+}
+
 TEST(CameraFrame, BadFilesAreErrorsAtTheirPath) {
     const test::Folder folder;
     const auto where = [&](const char *name) { return (folder / name).string(); };

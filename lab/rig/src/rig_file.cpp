@@ -96,6 +96,7 @@ void read_lamp(const Section &root, const std::filesystem::path &folder, RigLamp
         lamp.log = folder / *log;
     lamp.diameter_mm = section->number("diameter_mm", 0, 1e4).value_or(lamp.diameter_mm);
     lamp.distance_mm = section->number("distance_mm", 0, 1e5).value_or(lamp.distance_mm);
+    lamp.spot_mm = section->number("spot_mm", 0, 1e4).value_or(lamp.spot_mm);
 }
 
 void read_shutter(const Section &root, RigShutter &shutter) {
@@ -178,6 +179,9 @@ void read_camera(const Section &root, const std::filesystem::path &folder, RigFi
     camera.e_per_dn = section->required_number("e_per_dn", 1e-3, 1e3);
     camera.read_noise_e = section->required_number("read_noise_e", 0, 1e4);
     camera.patch = section->integer("patch", 1, 4096).value_or(camera.patch);
+    camera.pixel_mm = section->number("pixel_mm", 0, 10).value_or(camera.pixel_mm);
+    camera.aperture_mm = section->number("aperture_mm", 0, 1e3).value_or(camera.aperture_mm);
+    camera.distance_mm = section->number("distance_mm", 0, 1e5).value_or(camera.distance_mm);
     read_pictures(*section, folder, camera);
 }
 
@@ -267,6 +271,7 @@ void read_white(const Section &root, const std::filesystem::path &folder, RigWhi
     if (!section)
         return;
     white.height_mm = section->number("height_mm", -100, 100).value_or(white.height_mm);
+    white.sigma = section->number("sigma", 0, 1).value_or(white.sigma);
     if (section->is_text("rho_std"))
         white.rho_std = existing_file(*section, folder, "rho_std",
                                       "a number, a spectrum as CSV, or a table of the standard");

@@ -33,6 +33,10 @@ struct ResponseCurve {
     double linear_dn(double encoded_dn) const;
 };
 
+/// Reads lines `dn,exposure_s`, with a header and comment lines that begin with `#`. Throws Error
+/// at file:line:column, also for less than two lines and for values that do not ascend.
+ResponseCurve read_response_csv(const std::filesystem::path &path);
+
 /// What a camera took. Numbers are the camera's own (DN); black is not removed.
 struct CameraFrame {
     Image image{};             ///< the area, as the sensor has it where the file is RAW
@@ -51,6 +55,9 @@ struct FrameSettings {
     std::optional<PixelArea> area{};         ///< empty: the whole picture
     std::optional<ResponseCurve> response{}; ///< of a camera whose pictures are encoded
 };
+
+/// What the picture says about itself, without `image` and `area`. Throws Error at the path.
+CameraFrame read_frame_header(const std::filesystem::path &path);
 
 /// Reads a RAW file without any of the usual processing, a TIFF, PNM or FITS of 16 bits or more, a
 /// float TIFF or an EXR. Of files in strips, only those of the area are read. Throws Error at the

@@ -40,6 +40,8 @@ struct RigLamp {
     std::filesystem::path log{}; ///< of strikes and hours; empty: none
     double diameter_mm = 0;      ///< of what shines, seen from the cloth; 0: not known
     double distance_mm = 0;      ///< from there to the cloth; 0: not known
+    double spot_mm = 0;          ///< full width of the lit spot across the beam at half its light;
+                                 ///< 0: not known
 };
 
 /// `[shutter]`
@@ -64,8 +66,11 @@ struct RigCamera {
     double e_per_dn = 0;               ///< electrons a DN
     double read_noise_e = 0;           ///< electrons, root mean square
     int patch = 16;                    ///< pixels along the side of the patch that is averaged
-    std::string extension = "tif";     ///< of the pictures' names, in lower case: `cr2`
-    double frame_mb = 8;               ///< size of a picture, for the plan's estimate
+    double pixel_mm = 0;    ///< one pixel on the cloth seen from straight above; 0: not known
+    double aperture_mm = 0; ///< diameter of the lens's opening; 0: not known
+    double distance_mm = 0; ///< from there to the cloth; 0: not known
+    std::string extension = "tif"; ///< of the pictures' names, in lower case: `cr2`
+    double frame_mb = 8;           ///< size of a picture, for the plan's estimate
     /// The measured response of a camera whose pictures are encoded; empty: they are linear.
     std::filesystem::path response{};
 };
@@ -121,6 +126,7 @@ struct RigWhite {
     /// The standard's reflectance: a number, or a file: a spectrum, or a TABLE.csv of the standard.
     std::variant<double, std::filesystem::path> rho_std = 1.0;
     double height_mm = 0; ///< of its surface above that of the cloth, towards lamp and camera
+    double sigma = 0; ///< relative error of its reflectance more than 45 degrees from the normal
 };
 
 /// A whole file. Paths are relative to its folder when they are read, and usable afterwards.

@@ -1,0 +1,201 @@
+#include "tsuya/lab/measure_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <set>
+
+#include "channel_estimate.h"
+#include "tsuya/lab/view_geometry.h"
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab {
+namespace {
+
+constexpr double kUnsharpShare = 0.1; // of the usual contrast from pixel to pixel
+constexpr double kSureSigmas = 3;
+constexpr double kSureContrast = 1e-3;  // squared; below, there is nothing to be sharp
+constexpr double kWidestBlur = 1.0 / 3; // of the narrowest lobe
+
+constexpr const char *kNoFlicker =
+    "the lamp's flicker cannot be told, and is in no error: that takes three white frames of one "
+    "light or more";
+
+std::string degrees_text(double angle) {
+    std::string text = std::to_string(std::round(angle / kDegree * 100) / 100);
+    return text.substr(0, text.find('.') + 3);
+}
+
+void check(const MeasureSettings &settings, const Session &session) {
+    Problems problems;
+    problems.need(settings.jump_limit > 0, "the limit of a jump is not above 0", "jump_limit",
+                  "expected a relative difference such as 0.02");
+    if (settings.repeat_mm) {
+        problems.need((*settings.repeat_mm)[0] > 0 && (*settings.repeat_mm)[1] > 0,
+                      "the repeat of the weave is not above 0 mm", "repeat_mm",
+                      "expected two lengths such as 0.4, 0.4");
+        problems.need(session.rig.camera.pixel_mm > 0,
+                      "whole repeats cannot be counted: the rig does not say how large a pixel is",
+                      (session.folder / "rig.toml").string() + ": camera.pixel_mm",
+                      "expected a length such as 0.05");
+    }
+    problems.throw_if_any();
+}
+
+/// Views with far less contrast from pixel to pixel than others of the same tilt are out of focus,
+/// or were moved.
+void leave_out_unsharp(SessionLight &light) {
+    std::map<long, std::vector<double>> rings;
+    const auto ring_of = [](const ViewLight &view) {
+        return std::lround(view.directions.theta_r / kDegree);
+    };
+    for (const ViewLight &view : light.cloth)
+        rings[ring_of(view)].push_back(view.colours[0].middle.sharpness);
+    for (auto &[ring, values] : rings)
+        std::nth_element(values.begin(),
+                         values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                         values.end());
+    std::erase_if(light.cloth, [&](const ViewLight &view) {
+        const std::vector<double> &values = rings[ring_of(view)];
+        const double usual = values[values.size() / 2];
+        const PatchMean &patch = view.colours[0].middle;
+        if (usual < kSureContrast ||
+            patch.sharpness + kSureSigmas * patch.sharpness_sigma >= kUnsharpShare * usual)
+            return false;
+        light.left_out.push_back({view.view, view.directions, LeftOutReason::unsharp,
+                                  "its contrast from pixel to pixel is " +
+                                      std::to_string(patch.sharpness / usual) + " of the usual"});
+        return true;
+    });
+}
+
+/// A view that one colour has not is in no table.
+void agree(SessionMeasurement &measured) {
+    auto &left_out = measured.left_out;
+    std::stable_sort(left_out.begin(), left_out.end(),
+                     [](const auto &a, const auto &b) { return a.view < b.view; });
+    left_out.erase(std::unique(left_out.begin(), left_out.end(),
+                               [](const auto &a, const auto &b) { return a.view == b.view; }),
+                   left_out.end());
+    std::set<std::size_t> views;
+    for (const LeftOutView &view : left_out)
+        views.insert(view.view);
+    for (ChannelMeasurement &channel : measured.channels)
+        std::erase_if(channel.views, [&](const auto &view) { return views.contains(view.view); });
+}
+
+double difference_of(const std::vector<ChannelMeasurement> &channels) {
+    double largest = 0;
+    std::vector<double> off(channels.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < channels[0].views.size(); ++i) {
+        double mean = 0;
+        for (const ChannelMeasurement &channel : channels)
+            mean += channel.views[i].brdf_per_sr / static_cast<double>(channels.size());
+        sum += mean;
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            off[c] += std::abs(channels[c].views[i].brdf_per_sr - mean);
+    }
+    for (const double total : off)
+        largest = std::max(largest, sum > 0 ? total / sum : 0);
+    return largest;
+}
+
+std::string date_of(double time_s) {
+    const auto seconds = static_cast<std::time_t>(time_s);
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text;
+}
+
+std::map<std::string, std::string> keys_of(const Session &session,
+                                           const ChannelMeasurement &channel) {
+    const RigCamera &camera = session.rig.camera;
+    const CountedFrame &first = session.frames.front();
+    std::map<std::string, std::string> keys{
+        {"instrument", "camera goniometer"},
+        {"date", date_of(first.time_s)},
+        {"camera", camera.command.empty() ? "shutter line" : camera.command.front()},
+        {"channel", channel.name},
+        {"lamp", "serial " +
+                     (session.rig.lamp.serial.empty() ? "unknown" : session.rig.lamp.serial) +
+                     ", " + std::to_string(first.lamp_hours) + " h"},
+        {"white_standard",
+         std::holds_alternative<double>(session.rig.white.rho_std)
+             ? std::to_string(std::get<double>(session.rig.white.rho_std))
+             : std::get<std::filesystem::path>(session.rig.white.rho_std).filename().string()},
+        {"provenance", "plan " + session.plan_hash + ", rig " + session.rig_hash + ", journal " +
+                           session.journal_hash}};
+    if (session.rig.white.height_mm != 0)
+        keys["white_height_mm"] = std::to_string(session.rig.white.height_mm);
+    return keys;
+}
+
+void fill_table(ChannelMeasurement &channel, const Session &session) {
+    channel.table = {.keys = keys_of(session, channel), .symmetry = session.plan.symmetry};
+    for (const MeasuredView &view : channel.views)
+        channel.table.rows.push_back({.theta_i = view.directions.theta_i,
+                                      .phi_i = view.directions.phi_i,
+                                      .theta_r = view.directions.theta_r,
+                                      .phi_r = view.directions.phi_r,
+                                      .brdf_per_sr = view.brdf_per_sr,
+                                      .sigma_per_sr = view.sigma_per_sr()});
+}
+
+void add_blur(SessionMeasurement &measured, const RigFile &rig) {
+    measured.lamp_angle = disk_angle(rig.lamp.diameter_mm, rig.lamp.distance_mm);
+    measured.aperture_angle = disk_angle(rig.camera.aperture_mm, rig.camera.distance_mm);
+    measured.narrowest_lobe = narrowest_lobe(measured.channels[0].table);
+    const auto warn = [&](const char *what, double angle) {
+        if (angle > kWidestBlur * measured.narrowest_lobe)
+            measured.warnings.push_back(
+                std::string(what) + " fills " + degrees_text(angle) +
+                " degrees, more than a third of the narrowest lobe, which is " +
+                degrees_text(measured.narrowest_lobe) + " degrees wide");
+    };
+    warn("the lamp", measured.lamp_angle);
+    warn("the camera's lens", measured.aperture_angle);
+    for (ChannelMeasurement &channel : measured.channels)
+        for (std::size_t i = 0; i < measured.warnings.size(); ++i)
+            channel.table.keys["warning" + (i > 0 ? std::to_string(i + 1) : "")] =
+                measured.warnings[i];
+}
+
+} // namespace
+
+const char *name_of(LeftOutReason reason) {
+    constexpr std::array kNames{"saturated", "underexposed",   "missing",   "unsharp",
+                                "misplaced", "wrong-exposure", "lamp-jump", "no-reference"};
+    return kNames[static_cast<std::size_t>(reason)];
+}
+
+double MeasuredView::sigma_per_sr() const {
+    return std::sqrt(noise * noise + drift * drift + texture * texture + white * white);
+}
+
+SessionMeasurement measure_session(const Session &session, const MeasureSettings &settings,
+                                   const Progress &progress) {
+    check(settings, session);
+    SessionLight light = read_session_light(session, settings, progress);
+    leave_out_unsharp(light);
+    SessionMeasurement measured{.left_out = light.left_out};
+    for (std::size_t c = 0; c < light.colours.size(); ++c) {
+        ChannelEstimate estimate = estimate_channel(light, c, session, settings);
+        measured.channels.push_back(std::move(estimate.channel));
+        measured.left_out.insert(measured.left_out.end(), estimate.left_out.begin(),
+                                 estimate.left_out.end());
+    }
+    agree(measured);
+    for (ChannelMeasurement &channel : measured.channels)
+        fill_table(channel, session);
+    if (measured.channels[0].flicker == 0)
+        measured.warnings.emplace_back(kNoFlicker);
+    measured.channel_difference = difference_of(measured.channels);
+    add_blur(measured, session.rig);
+    return measured;
+}
+
+} // namespace tsuya::lab

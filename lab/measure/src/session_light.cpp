@@ -1,0 +1,206 @@
+#include "session_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tsuya/lab/view_geometry.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::lab {
+namespace {
+
+constexpr double kExposureTolerance = 0.1; // relative, of what a picture says
+constexpr double kLargestUnevenness = 2;   // light of two sides of the measured part
+
+using Frames = std::vector<const CountedFrame *>;
+
+std::string text_of(double value) {
+    std::string text = std::to_string(value);
+    text.erase(text.find_last_not_of('0') + 1);
+    return text.back() == '.' ? text + '0' : text;
+}
+
+class SessionLightReader {
+  public:
+    SessionLightReader(const Session &session, const MeasureSettings &settings,
+                       const Progress &progress)
+        : session_(session), settings_(settings), progress_(progress),
+          reader_(session.rig.camera), sensor_{session.rig.camera.black,
+                                               session.rig.camera.saturation,
+                                               session.rig.camera.e_per_dn,
+                                               session.rig.camera.read_noise_e} {}
+
+    SessionLight read() {
+        note_missing();
+        if (settings_.corrections.dark)
+            read_dark();
+        else
+            sensor_.black = 0;
+        std::map<std::size_t, Frames> views;
+        for (const CountedFrame &frame : session_.frames)
+            if (frame.planned.kind != FrameKind::dark)
+                views[frame.planned.view].push_back(&frame);
+        for (const auto &[view, frames] : views)
+            if (!missing_.contains(view))
+                read_view(frames);
+        read_warm_up();
+        if (light_.cloth.empty() || light_.white.empty())
+            throw Error({std::string("the session has no frame of the ") +
+                             (light_.cloth.empty() ? "cloth" : "white standard"),
+                         session_.folder.string(), "expected a session that has been run"});
+        return std::move(light_);
+    }
+
+  private:
+    void leave_out(const PlannedFrame &planned, LeftOutReason reason, std::string detail) {
+        if (planned.kind == FrameKind::cloth)
+            light_.left_out.push_back(
+                {planned.view, planned.directions, reason, std::move(detail)});
+    }
+
+    /// A view of the cloth needs all its frames; of the others, the frames that there are do.
+    void note_missing() {
+        for (const std::size_t number : session_.missing) {
+            const PlannedFrame &planned = session_.plan.frames[number];
+            if (planned.kind == FrameKind::cloth && missing_.insert(planned.view).second)
+                leave_out(planned, LeftOutReason::missing,
+                          "frame " + std::to_string(number) + " was not taken");
+        }
+    }
+
+    FramePatches read_frame_of(const CountedFrame &frame) {
+        if (progress_.stopped())
+            throw Interrupted("stopped while the session's frames are read");
+        progress_("read frames",
+                  static_cast<double>(done_++) /
+                      static_cast<double>(std::max<std::size_t>(session_.frames.size(), 1)));
+        FramePatches patches = reader_.read(frame.file, frame.planned.exposure_s);
+        std::vector<std::string> colours;
+        for (const ColourPixels &colour : patches.colours)
+            colours.push_back(colour.name);
+        if (light_.colours.empty())
+            light_.colours = colours;
+        if (light_.colours != colours)
+            throw Error({"the picture has other colours than the first", frame.file.string(),
+                         "expected pictures of one camera"});
+        return patches;
+    }
+
+    void read_dark() {
+        std::map<double, std::vector<std::vector<ExposedPixels>>> frames; // by colour
+        for (const CountedFrame &frame : session_.frames) {
+            if (frame.planned.kind != FrameKind::dark)
+                continue;
+            const FramePatches patches = read_frame_of(frame);
+            auto &lists = frames[frame.planned.exposure_s];
+            lists.resize(patches.colours.size());
+            for (std::size_t c = 0; c < patches.colours.size(); ++c)
+                lists[c].push_back(patches.colours[c].pixels);
+        }
+        for (const auto &[exposure_s, lists] : frames)
+            for (const auto &list : lists)
+                dark_[exposure_s].push_back(mean_of_dark(list));
+    }
+
+    void read_view(const Frames &frames) {
+        const PlannedFrame &planned = frames.front()->planned;
+        ViewLight view{.view = planned.view,
+                       .directions = planned.directions,
+                       .strike = frames.front()->strike};
+        std::vector<FramePatches> patches;
+        double exposure_s = 0;
+        for (const CountedFrame *frame : frames) {
+            try {
+                patches.push_back(read_frame_of(*frame));
+            } catch (const Error &error) {
+                if (planned.kind != FrameKind::cloth)
+                    throw;
+                return leave_out(planned, LeftOutReason::missing, error.what());
+            }
+            const double said = patches.back().exposure_s.value_or(frame->planned.exposure_s);
+            if (std::abs(said / frame->planned.exposure_s - 1) > kExposureTolerance)
+                return leave_out(planned, LeftOutReason::wrong_exposure,
+                                 frame->file.string() + " says " + text_of(said) + " s, the plan " +
+                                     text_of(frame->planned.exposure_s) + " s");
+            view.time_s += frame->time_s * frame->planned.exposure_s;
+            exposure_s += frame->planned.exposure_s;
+        }
+        view.time_s /= exposure_s;
+        view.colours = light_of(patches, dark_, sensor_, reader_.grid(), window_of(planned));
+        keep(planned, std::move(view));
+    }
+
+    void keep(const PlannedFrame &planned, ViewLight view) {
+        if (planned.kind == FrameKind::white)
+            light_.white.push_back(std::move(view));
+        else if (planned.kind == FrameKind::trap)
+            light_.trap.push_back(std::move(view));
+        else if (!rejected(planned, view))
+            light_.cloth.push_back(std::move(view));
+    }
+
+    bool rejected(const PlannedFrame &planned, const ViewLight &view) {
+        const double patch_mm =
+                         patch_length_mm(session_.rig.camera.patch * session_.rig.camera.pixel_mm,
+                                         planned.directions.theta_r),
+                     spot_mm = spot_length_mm(session_.rig.lamp.spot_mm, planned.directions);
+        const auto leave = [&](LeftOutReason reason, std::string detail) {
+            leave_out(planned, reason, std::move(detail));
+            return true;
+        };
+        if (spot_mm > 0 && patch_mm > spot_mm)
+            return leave(LeftOutReason::misplaced, "the patch is " + text_of(patch_mm) +
+                                                       " mm long on the cloth, the lit spot " +
+                                                       text_of(spot_mm));
+        for (const PatchLight &colour : view.colours) {
+            if (colour.middle.clipped > 0)
+                return leave(LeftOutReason::saturated,
+                             std::to_string(colour.middle.clipped) +
+                                 " pixels of the patch are clipped under every exposure");
+            if (colour.middle.rate < 3 * colour.middle.sigma)
+                return leave(LeftOutReason::underexposed,
+                             "the light is " + text_of(colour.middle.rate) + " DN/s, its noise " +
+                                 text_of(colour.middle.sigma));
+            if (colour.uneven > kLargestUnevenness)
+                return leave(LeftOutReason::misplaced, "one side of the patch has " +
+                                                           text_of(colour.uneven) +
+                                                           " times the light of the other");
+        }
+        return false;
+    }
+
+    PatchWindow window_of(const PlannedFrame &planned) const {
+        const int side = session_.rig.camera.patch;
+        const double pixel_mm = session_.rig.camera.pixel_mm;
+        if (!settings_.repeat_mm || planned.kind != FrameKind::cloth)
+            return even_window(side);
+        return repeat_window(
+            side, lattice_in_picture(*settings_.repeat_mm, pixel_mm, planned.directions));
+    }
+
+    /// White frames beside the plan, each a view of its own.
+    void read_warm_up() {
+        for (const CountedFrame &frame : session_.warm_up)
+            read_view({&frame});
+    }
+
+    const Session &session_;
+    const MeasureSettings &settings_;
+    const Progress &progress_;
+    PatchReader reader_;
+    Sensor sensor_;
+    DarkFrames dark_{};
+    std::set<std::size_t> missing_{};
+    std::size_t done_ = 0;
+    SessionLight light_{};
+};
+
+} // namespace
+
+SessionLight read_session_light(const Session &session, const MeasureSettings &settings,
+                                const Progress &progress) {
+    return SessionLightReader(session, settings, progress).read();
+}
+
+} // namespace tsuya::lab

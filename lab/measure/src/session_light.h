@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// The pictures of a session as light: what was read of every view.
+
+#include "tsuya/sdk/progress.h"
+#include "view_light.h"
+
+namespace tsuya::lab {
+
+/// All views of a session. What could not be read is in `left_out`, if it is of the cloth.
+struct SessionLight {
+    std::vector<std::string> colours{};
+    std::vector<ViewLight> cloth{}, white{}, trap{};
+    std::vector<LeftOutView> left_out{};
+};
+
+/// Reads every counted frame's patches. Throws Error where there is no cloth or no white, frames of
+/// other colours, settings out of range; Interrupted.
+SessionLight read_session_light(const Session &session, const MeasureSettings &settings,
+                                const Progress &progress);
+
+} // namespace tsuya::lab

@@ -1,0 +1,352 @@
+#include "tsuya/lab/measure_session.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "lab/virtual_session.h"
+#include "samples/scratch.h"
+#include "tsuya/color/camera_frame.h"
+#include "tsuya/lab/frame_reader.h"
+#include "tsuya/lab/view_geometry.h"
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya::lab {
+namespace {
+
+using scene::Scratch, test::VirtualSession;
+
+/// A cloth that is darker towards the horizon, under two lights.
+VirtualSession small_session() {
+    VirtualSession session;
+    session.directions.symmetry = Symmetry::half_turn;
+    for (const double theta_i : {0.0, 30.0})
+        for (const double theta_r : {10.0, 20.0, 40.0, 60.0, 70.0})
+            for (const double phi_r : {0.0, 40.0, 120.0})
+                session.directions.pairs.push_back(
+                    {theta_i * kDegree, 0.2 * (theta_i > 0), theta_r * kDegree, phi_r * kDegree});
+    session.scene = {.cloth = [](const DirectionPair &d) { return 0.05 * std::cos(d.theta_r); },
+                     .flicker = 0};
+    session.white_every = 7;
+    return session;
+}
+
+/// Largest relative error.
+double worst_of(const ChannelMeasurement &channel, const VirtualSession &session) {
+    double worst = 0;
+    for (const MeasuredView &view : channel.views)
+        worst =
+            std::max(worst, std::abs(view.brdf_per_sr / session.scene.cloth(view.directions) - 1));
+    return worst;
+}
+
+TEST(MeasureSession, FindsTheReflectanceOfEveryView) {
+    const Scratch folder;
+    const VirtualSession made = small_session();
+    const Session session = make_virtual_session(folder / "s", made);
+    const SessionMeasurement measured =
+        measure_session(session, {.repeat_mm = made.scene.repeat_mm});
+    ASSERT_EQ(measured.channels.size(), 1u);
+    const ChannelMeasurement &channel = measured.channels[0];
+    EXPECT_EQ(channel.name, "Y");
+    ASSERT_EQ(channel.views.size(), 30u);
+    EXPECT_TRUE(measured.left_out.empty());
+    EXPECT_LT(worst_of(channel, made), 0.01);
+    ASSERT_EQ(measured.warnings.size(), 1u) << "the lamp of this session does not flicker";
+    EXPECT_NE(measured.warnings[0].find("flicker"), std::string::npos);
+    EXPECT_EQ(channel.table.rows.size(), 30u);
+    EXPECT_EQ(channel.table.symmetry, Symmetry::half_turn);
+    EXPECT_EQ(channel.lamp.size(), 2u);
+    for (const char *key : {"instrument", "camera", "lamp", "white_standard", "provenance"})
+        EXPECT_TRUE(channel.table.keys.contains(key)) << key;
+    EXPECT_NE(channel.table.keys.at("provenance").find(session.journal_hash), std::string::npos);
+    EXPECT_NE(channel.table.keys.at("lamp").find("MH-1"), std::string::npos);
+    for (const MeasuredView &view : channel.views) {
+        EXPECT_GT(view.noise, 0);
+        EXPECT_GT(view.drift, 0);
+        EXPECT_DOUBLE_EQ(view.sigma_per_sr(), std::hypot(view.noise, view.drift, view.texture));
+    }
+}
+
+TEST(MeasureSession, EachViewsOwnWhiteCancelsWhatTheStandardDoes) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    made.white = WhiteUse::each_view;
+    const SessionMeasurement measured = measure_session(make_virtual_session(folder / "s", made),
+                                                        {.repeat_mm = made.scene.repeat_mm});
+    EXPECT_EQ(measured.channels[0].views.size(), 30u);
+    EXPECT_LT(worst_of(measured.channels[0], made), 0.01);
+}
+
+/// The reasons, in the order of the views of the cloth that were meddled with.
+std::vector<LeftOutReason> reasons(const SessionMeasurement &measured) {
+    std::vector<LeftOutReason> list;
+    for (const LeftOutView &view : measured.left_out)
+        list.push_back(view.reason);
+    return list;
+}
+
+TEST(MeasureSession, NamesWhatItLeavesOut) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    made.glint_view = 1;
+    made.missing_views = {3};
+    const DirectionPair black = made.directions.pairs[5];
+    const auto cloth = made.scene.cloth;
+    made.scene.cloth = [=](const DirectionPair &d) { return d == black ? 0.0 : cloth(d); };
+    made.scene.stray = 0;
+    const Session session = make_virtual_session(folder / "s", made);
+    const auto file_of = [&](std::size_t n) {
+        for (const CountedFrame &frame : session.frames)
+            if (frame.planned.view == test::plan_view(session.plan, n) &&
+                frame.planned.exposure_s == 10)
+                return frame.file;
+        throw std::invalid_argument("no such view");
+    };
+    for (const CountedFrame &frame : session.frames)
+        if (frame.planned.view == test::plan_view(session.plan, 7)) {
+            CameraFrame blurred = // out of focus
+                read_frame(frame.file);
+            const float level =
+                std::accumulate(blurred.image.data.begin(), blurred.image.data.end(), 0.0f) /
+                static_cast<float>(blurred.image.data.size());
+            std::fill(blurred.image.data.begin(), blurred.image.data.end(), std::round(level));
+            write_frame(frame.file, blurred);
+        }
+    for (const CountedFrame &frame : session.frames)
+        if (frame.planned.view == test::plan_view(session.plan, 9)) {
+            CameraFrame edge = read_frame(frame.file); // half of the patch is no cloth
+            for (int y = 0; y < edge.image.height; ++y)
+                for (int x = 30; x < edge.image.width; ++x)
+                    edge.image.pixel(x, y)[0] = 512;
+            write_frame(frame.file, edge);
+        }
+    CameraFrame shorter = read_frame(file_of(11));
+    shorter.exposure_s = 5;
+    write_frame(file_of(11), shorter);
+    write_file(file_of(13), "no picture");
+
+    const SessionMeasurement measured =
+        measure_session(session, {.repeat_mm = made.scene.repeat_mm});
+    EXPECT_EQ(
+        reasons(measured),
+        (std::vector{LeftOutReason::saturated, LeftOutReason::missing, LeftOutReason::underexposed,
+                     LeftOutReason::unsharp, LeftOutReason::misplaced,
+                     LeftOutReason::wrong_exposure, LeftOutReason::missing}));
+    const std::size_t views[] = {1, 3, 5, 7, 9, 11, 13};
+    for (std::size_t i = 0; i < measured.left_out.size() && i < 7; ++i) {
+        EXPECT_EQ(measured.left_out[i].view, test::plan_view(session.plan, views[i]));
+        EXPECT_FALSE(measured.left_out[i].detail.empty());
+    }
+    EXPECT_EQ(measured.channels[0].views.size(), 23u);
+    EXPECT_STREQ(name_of(LeftOutReason::wrong_exposure), "wrong-exposure");
+}
+
+TEST(MeasureSession, AJumpOfTheLampCostsTheViewsAboutIt) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    made.jump_at = 10;
+    made.jump = 1.1;
+    const Session session = make_virtual_session(folder / "s", made);
+    const SessionMeasurement measured =
+        measure_session(session, {.repeat_mm = made.scene.repeat_mm});
+    ASSERT_EQ(measured.left_out.size(), 7u) << "from white frame to white frame";
+    for (const LeftOutView &view : measured.left_out)
+        EXPECT_EQ(view.reason, LeftOutReason::lamp_jump);
+    EXPECT_LT(worst_of(measured.channels[0], made), 0.01);
+    // With a limit that takes it for drift the views are wrong.
+    const SessionMeasurement all =
+        measure_session(session, {.repeat_mm = made.scene.repeat_mm, .jump_limit = 0.5});
+    EXPECT_GT(worst_of(all.channels[0], made), 0.02);
+}
+
+TEST(MeasureSession, ThePatchMustBeLitAllOver) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    Session session = make_virtual_session(folder / "s", made);
+    session.rig.lamp.spot_mm = 1.8; // the patch is 0.8 mm: 2.3 mm long at 70 degrees
+    const SessionMeasurement measured = measure_session(session);
+    ASSERT_EQ(measured.left_out.size(), 6u);
+    for (const LeftOutView &view : measured.left_out)
+        EXPECT_EQ(view.reason, LeftOutReason::misplaced) << view.detail;
+}
+
+TEST(MeasureSession, TheHeightOfTheStandardIsCorrected) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    made.scene.stray = 0;
+    Session session = make_virtual_session(folder / "s", made);
+    const double level = measure_session(session, {.repeat_mm = made.scene.repeat_mm})
+                             .channels[0]
+                             .views[0]
+                             .brdf_per_sr;
+    session.rig.white.height_mm = 2;
+    session.rig.lamp.spot_mm = 30;
+    session.rig.lamp.distance_mm = 600;
+    const ChannelMeasurement raised =
+        measure_session(session, {.repeat_mm = made.scene.repeat_mm}).channels[0];
+    const DirectionPair reference{.theta_r = 45 * kDegree, .phi_r = 90 * kDegree};
+    EXPECT_NEAR(raised.views[0].brdf_per_sr / level, raised_irradiance(2, 30, 600, reference),
+                1e-6);
+    EXPECT_EQ(raised.table.keys.at("white_height_mm").substr(0, 1), "2");
+}
+
+TEST(MeasureSession, TheStandardsOwnTableAndSpectrumAreUsed) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    const Session session = make_virtual_session(folder / "s", made);
+    const double number = measure_session(session, {.repeat_mm = made.scene.repeat_mm})
+                              .channels[0]
+                              .views[0]
+                              .brdf_per_sr;
+    Session other = session;
+    write_file(folder / "white.csv", "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr\n"
+                                     "0,0,45,90,0.2\n30,11.4591559,45,101.4591559,0.2\n");
+    other.rig.white.rho_std = folder / "white.csv";
+    const double table = measure_session(other, {.repeat_mm = made.scene.repeat_mm})
+                             .channels[0]
+                             .views[0]
+                             .brdf_per_sr;
+    EXPECT_NEAR(table / number, 0.2 * kPi / 0.99, 1e-6);
+    write_file(folder / "spectrum.csv", "wavelength_nm,value\n400,0.4\n700,0.6\n");
+    other.rig.white.rho_std = folder / "spectrum.csv";
+    const double spectrum = measure_session(other, {.repeat_mm = made.scene.repeat_mm})
+                                .channels[0]
+                                .views[0]
+                                .brdf_per_sr;
+    EXPECT_NEAR(spectrum / number, 0.5 / 0.99, 1e-6);
+    write_file(folder / "white.csv",
+               "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr\n0,0,50,90,0.2\n");
+    other.rig.white.rho_std = folder / "white.csv";
+    EXPECT_THROW(measure_session(other, {.repeat_mm = made.scene.repeat_mm}), Error);
+}
+
+TEST(MeasureSession, AStandardTakenForAnIdealDiffuserWidensSigma) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    Session session = make_virtual_session(folder / "s", made);
+    session.rig.white.sigma = 0.03;
+    const SessionMeasurement measured =
+        measure_session(session, {.repeat_mm = made.scene.repeat_mm});
+    for (const MeasuredView &view : measured.channels[0].views)
+        EXPECT_NEAR(view.white / view.brdf_per_sr,
+                    view.directions.theta_r > 45 * kDegree ? 0.03 : 0, 1e-12);
+}
+
+TEST(MeasureSession, WideLampsAreTold) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    made.scene.flicker = 0.002;
+    Session session = make_virtual_session(folder / "s", made);
+    session.rig.lamp.diameter_mm = 320;
+    session.rig.lamp.distance_mm = 500;
+    const SessionMeasurement measured = measure_session(session);
+    EXPECT_NEAR(measured.lamp_angle / kDegree, 35.5, 0.1);
+    EXPECT_EQ(measured.aperture_angle, 0);
+    ASSERT_EQ(measured.warnings.size(), 1u);
+    EXPECT_NE(measured.warnings[0].find("35.49 degrees"), std::string::npos)
+        << measured.warnings[0];
+    EXPECT_EQ(measured.channels[0].table.keys.at("warning"), measured.warnings[0]);
+}
+
+TEST(MeasureSession, ColoursHaveTablesOfTheirOwn) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    const Session session = make_virtual_session(folder / "s", made);
+    for (const CountedFrame &frame : session.frames) { // red sees 20 % more of the cloth
+        const CameraFrame grey = read_frame(frame.file);
+        CameraFrame colour = grey;
+        colour.image = Image::make(grey.image.width, grey.image.height, {"R", "G", "B"});
+        for (std::size_t i = 0; i < grey.image.data.size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                colour.image.data[3 * i + c] =
+                    c == 0 && frame.planned.kind == FrameKind::cloth
+                        ? std::min(std::round(512 + 1.2f * (grey.image.data[i] - 512)), 15800.0f)
+                        : grey.image.data[i];
+        write_frame(frame.file, colour);
+    }
+    const SessionMeasurement measured =
+        measure_session(session, {.repeat_mm = made.scene.repeat_mm});
+    ASSERT_EQ(measured.channels.size(), 3u);
+    EXPECT_EQ(measured.channels[0].name, "R");
+    EXPECT_NEAR(measured.channels[0].views[0].brdf_per_sr /
+                    measured.channels[2].views[0].brdf_per_sr,
+                1.2, 0.01);
+    EXPECT_NEAR(measured.channel_difference, 0.4 / 3 / (3.2 / 3), 0.01);
+}
+
+TEST(MeasureSession, RefusesWhatCannotBeMeasured) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    const Session session = make_virtual_session(folder / "s", made);
+    Session other = session;
+    other.rig.camera.pixel_mm = 0;
+    EXPECT_THROW(measure_session(other, {.repeat_mm = {{0.4, 0.4}}}), Error);
+    EXPECT_THROW(measure_session(session, {.repeat_mm = {{0.4, 0}}}), Error);
+    EXPECT_THROW(measure_session(session, {.jump_limit = 0}), Error);
+    other = session;
+    std::erase_if(other.frames,
+                  [](const CountedFrame &f) { return f.planned.kind == FrameKind::white; });
+    EXPECT_THROW(measure_session(other), Error);
+    other.frames.clear();
+    EXPECT_THROW(measure_session(other), Error);
+    std::atomic<bool> stop{true};
+    EXPECT_THROW(measure_session(session, {}, {.report = {}, .stop = &stop}), Interrupted);
+    other = session;
+    other.rig.camera.patch = 50;
+    EXPECT_THROW(measure_session(other), Error);
+}
+
+TEST(FrameReader, TellsExposureAndPatch) {
+    const Scratch folder;
+    CameraFrame frame{.image = Image::make(64, 48, {"Y"}), .exposure_s = 2};
+    std::fill(frame.image.data.begin(), frame.image.data.end(), 600.0f);
+    for (int y = 16; y < 32; ++y)
+        for (int x = 24; x < 40; ++x)
+            frame.image.pixel(x, y)[0] = 1000;
+    write_frame(folder / "a.tif", frame);
+    const RigCamera camera{.black = 500, .patch = 16};
+    const FrameFacts facts = read_frame_facts(folder / "a.tif", camera);
+    EXPECT_EQ(facts.exposure_s, 2);
+    EXPECT_DOUBLE_EQ(facts.patch_mean, 500);
+    std::filesystem::resize_file(folder / "a.tif", 3000);
+    EXPECT_THROW(read_frame_facts(folder / "a.tif", camera), Error);
+}
+
+TEST(VirtualCamera, HasTheFaultsOfARealOne) {
+    const Scratch folder;
+    const RigCamera camera{.black = 512, .saturation = 15800, .e_per_dn = 2.5, .read_noise_e = 4};
+    const std::vector<std::optional<CameraFault>> faults{
+        std::nullopt,          CameraFault::busy,     CameraFault::busy,
+        CameraFault::hang,     CameraFault::no_file,  CameraFault::empty_file,
+        CameraFault::cut_file, CameraFault::old_file, CameraFault::wrong_exposure,
+        std::nullopt};
+    VirtualCamera virtual_camera({.cloth = [](const DirectionPair &) { return 0.02; }}, camera,
+                                 {.fault = [&](std::uint64_t n) { return faults[n]; }});
+    const auto take = [&](std::size_t n) {
+        const Shot shot{.number = n,
+                        .planned = {.exposure_s = 1},
+                        .file = folder / (std::to_string(n) + ".tif"),
+                        .time_s = 1e9};
+        virtual_camera.expose(shot);
+        virtual_camera.collect(shot);
+        return shot.file;
+    };
+    const auto first = take(0);
+    const FrameFacts good = read_frame_facts(first, camera);
+    EXPECT_NEAR(good.patch_mean, virtual_camera.dn_per_s({.exposure_s = 1}, 1e9), 40);
+    EXPECT_THROW(take(1), Error);
+    EXPECT_THROW(take(2), Error);
+    EXPECT_THROW(take(3), Error);
+    EXPECT_FALSE(std::filesystem::exists(take(4)));
+    EXPECT_EQ(std::filesystem::file_size(take(5)), 0u);
+    EXPECT_THROW(read_frame_facts(take(6), camera), Error);
+    EXPECT_EQ(read_file(take(7)), read_file(first));
+    EXPECT_EQ(read_frame_facts(take(8), camera).exposure_s, 0.5);
+    EXPECT_NE(read_file(take(9)), read_file(first));
+}
+
+} // namespace
+} // namespace tsuya::lab
