@@ -91,8 +91,8 @@ TEST(FabricFit, UsesObliqueViewsIfAsked) {
 TEST(FabricFit, NamesObliqueViewsThatDoNotFit) {
     const Scratch scratch;
     const std::string file = (scratch / "a.fabric.toml").string();
-    const Outcome odd = run(
-        scratch, {"fit", dozen_table(scratch, 0.003), "-o", file, "--f0", "0.05", "--use", "all"});
+    const Outcome odd =
+        run(scratch, {"fit", dozen_table(scratch, 30), "-o", file, "--f0", "0.05", "--use", "all"});
     EXPECT_EQ(odd.status, 0);
     EXPECT_NE(odd.err.find("theta 60, phi 261 under light at theta_i 60, phi_i 45"),
               std::string::npos)

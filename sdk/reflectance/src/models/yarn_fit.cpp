@@ -25,7 +25,6 @@ constexpr double kRougher = 0.01;
 // Depths to which yarns dive that are tried, in their widths: no deeper than yarns are thick
 constexpr std::array<double, 4> kDives = {0, 0.1, 0.2, 0.3};
 constexpr double kFirstDive = 0.2;
-constexpr double kNearRoughness = 1.4; // factor of those that oblique views choose from
 // More surface than this is none of filaments that are seen from above
 constexpr double kMostSurface = 2 * kFullCover;
 
@@ -175,9 +174,9 @@ YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double
     const double least = least_roughness(bard);
     const Solution start = best_from_above(above, f0, least);
     std::vector<Solution> tried;
-    // Views from above tell the roughness better than a dozen oblique ones
-    for (const double factor : {1 / kNearRoughness, 1.0, kNearRoughness}) {
-        const double roughness = std::max(factor * start.lobes.roughness, least);
+    for (const double roughness : kRoughness) {
+        if (roughness < least)
+            continue;
         Solution next =
             FitFromAbove(above, f0, start.rest, least).with(roughness, start.lobes.dive);
         next.least_even = kLeastEven * next.lobes.even;
