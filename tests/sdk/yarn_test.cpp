@@ -1,7 +1,6 @@
 #include "tsuya/sdk/yarn.h"
 
 #include <cmath>
-#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -18,11 +17,11 @@ constexpr int kLevel = kYarnSlopes / 2;
 
 // A warp-faced cloth: level floats that dip at 10 degrees, over a weft that lies level.
 YarnLobes satin_lobes() {
-    YarnLobes lobes{.f0 = 0.053, .roughness = 0.06, .loose = 0.05};
+    YarnLobes lobes{.f0 = 0.053, .roughness = 0.06, .even = 0.002};
     lobes.surface[1][kLevel] = 0.8;
     lobes.surface[1][kLevel - 5] = lobes.surface[1][kLevel + 5] = 0.1;
     lobes.surface[0][kLevel] = 0.25;
-    lobes.pit = {0.2, 0};
+    lobes.pit = {0.3, 0};
     return lobes;
 }
 
@@ -73,7 +72,7 @@ TEST(YarnLobes, AreFoundAgainInTheViewsTheyMake) {
     const YarnLobes made = satin_lobes();
     const YarnBrdf brdf(made);
     const YarnLobes found = fit_yarn_lobes(Bard::fit(table_of(brdf, 0, 0), {}, "cloth"), made.f0);
-    EXPECT_NEAR(found.roughness / made.roughness, 1, 0.15);
+    EXPECT_EQ(found.roughness, made.roughness);
     for (const int axis : {0, 1}) {
         double surface = 0, expected = 0;
         for (int k = 0; k < kYarnSlopes; ++k) {
@@ -82,7 +81,7 @@ TEST(YarnLobes, AreFoundAgainInTheViewsTheyMake) {
         }
         EXPECT_NEAR(surface / expected, 1, 0.1) << axis;
     }
-    EXPECT_NEAR(found.pit[0], 0.2, 0.03); // a face with little weft: it lies deep
+    EXPECT_NEAR(found.pit[0], 0.3, 0.03); // a face with little weft: it lies deep
     EXPECT_EQ(found.pit[1], 0);
     // What was never shown to the fit
     const YarnBrdf again(found);
@@ -97,7 +96,7 @@ TEST(YarnLobes, AreFoundAgainInTheViewsTheyMake) {
 // Crossing yarns with equal shares of the face, of which the weft lies deeper than light from above
 // tells: two views under each of six lights.
 YarnLobes uneven_lobes() {
-    YarnLobes lobes{.f0 = 0.053, .roughness = 0.08};
+    YarnLobes lobes{.f0 = 0.053, .roughness = 0.08, .even = 0.001};
     for (const int axis : {0, 1})
         for (int k = -8; k <= 8; ++k)
             lobes.surface[axis][kLevel + k] = 0.05;
@@ -127,7 +126,7 @@ TEST(YarnLobes, FindPitsInADozenObliqueViews) {
     EXPECT_EQ(above.pit[0], 0); // equal shares: light from above takes them for level
     EXPECT_NEAR(found.pit[0], 0.2, 0.026);
     EXPECT_NEAR(found.pit[1], 0, 0.026);
-    EXPECT_NEAR(found.roughness / made.roughness, 1, 0.7); // of those that are tried
+    EXPECT_EQ(found.roughness, made.roughness);
     const YarnBrdf blind(above), seeing(found);
     const auto error = [&](const YarnBrdf &model, double theta, double phi) {
         return *measure_accuracy(table_of(brdf, theta, phi), [&](const auto &l, const auto &v) {
@@ -192,7 +191,6 @@ TEST(YarnBrdf, ReflectsIntoConesAboutTheYarns) {
 // One more wall in the way for each system that lies in pits, none for the other.
 TEST(YarnBrdf, LosesYarnsInPitsAtGrazing) {
     YarnLobes lobes = satin_lobes();
-    lobes.loose = 0;
     lobes.surface[1].fill(0); // weft only
     lobes.pit = {0, 0};
     const YarnBrdf level(lobes);
@@ -206,108 +204,10 @@ TEST(YarnBrdf, LosesYarnsInPitsAtGrazing) {
                brdf.lobes().even / 3.14159265;
     };
     // 1 - pit (tan + tan)
-    EXPECT_NEAR(at(deep, 45, 0) / at(level, 45, 0), 0.4, 0.03);
-    EXPECT_LT(at(deep, 60, 0) / at(level, 60, 0), 0.05);
+    EXPECT_NEAR(at(deep, 45, 0) / at(level, 45, 0), 0.4, 0.01);
+    EXPECT_NEAR(at(deep, 60, 0), 0, 1e-6);
     EXPECT_NEAR(at(deep, 45, 90) / at(level, 45, 90), 1, 0.01);
     EXPECT_NEAR(at(other, 45, 0) / at(level, 45, 0), 1, 1e-5);
-}
-
-TEST(YarnLobes, FindRoughnessesBetweenThoseThatAreTried) {
-    for (const double roughness : {0.02, 0.065, 0.16, 0.26}) {
-        YarnLobes made = satin_lobes();
-        made.roughness = roughness;
-        const Bard bard = Bard::fit(table_of(YarnBrdf(made), 0, 0), {}, "cloth");
-        EXPECT_NEAR(fit_yarn_lobes(bard, made.f0).roughness / roughness, 1, 0.25) << roughness;
-    }
-}
-
-// A cloth that reflects more than filaments can has a diffuse part.
-TEST(YarnLobes, CoverNoMoreThanTheCloth) {
-    for (const double brightness : {1.0, 8.0}) {
-        ReflectanceTable table = table_of(YarnBrdf(satin_lobes()), 0, 0);
-        for (ReflectanceRow &row : table.rows)
-            row.brdf_per_sr *= brightness;
-        const YarnLobes found = fit_yarn_lobes(Bard::fit(table, {}, "cloth"), 0.053);
-        for (const auto &surface : found.surface)
-            EXPECT_LE(std::accumulate(surface.begin(), surface.end(), 0.0), 0.5 * kPi + 1e-9);
-        EXPECT_EQ(found.even > 0, brightness > 1);
-        EXPECT_TRUE(found.even == 0 || found.loose == 0);
-    }
-}
-
-// Yarns that dive between their neighbours are lost from the side, level ones are not.
-TEST(YarnBrdf, LosesDivingYarnsToTheirNeighbours) {
-    YarnLobes lobes{.f0 = 0.05, .roughness = 0.03};
-    lobes.surface[1][kLevel] = 0.5;
-    lobes.surface[1][kLevel - 8] = lobes.surface[1][kLevel + 8] = 0.3;
-    const YarnBrdf flat(lobes);
-    lobes.dive = 0.3;
-    const YarnBrdf diving(lobes);
-    const auto kept = [&](double slope_deg, double across) {
-        const glm::dvec3 half =
-            glm::normalize(glm::dvec3(across, std::tan(slope_deg * kDegree), 1));
-        const glm::vec3 up(0, 0, 1), view(2 * half.z * half - glm::dvec3(up));
-        return diving.evaluate(up, view) / flat.evaluate(up, view);
-    };
-    EXPECT_GT(kept(0, 0.6), 0.98f);
-    EXPECT_GT(kept(16, 0.0), 0.95f);
-    EXPECT_LT(kept(16, 0.6), 0.8f);
-}
-
-// The largest change of slope between neighbouring steps of a sweep, over the largest slope.
-template <class F> double corner(const F &f) {
-    constexpr double kStepDeg = 0.05;
-    double sharpest = 0, steepest = 0;
-    for (double at = -86; at < 86; at += kStepDeg) {
-        const double below = f(at - kStepDeg), here = f(at), above = f(at + kStepDeg);
-        sharpest = std::max(sharpest, std::abs(above - 2 * here + below));
-        steepest = std::max(steepest, std::abs(above - here));
-    }
-    return sharpest / steepest;
-}
-
-TEST(YarnBrdf, HasNoCorners) {
-    YarnLobes lobes = satin_lobes();
-    lobes.dive = 0.3;
-    const YarnBrdf brdf(lobes);
-    for (const double theta : {0.0, 30.0, 60.0})
-        for (const double phi : {0.0, 90.0}) {
-            const glm::vec3 light(direction(theta, phi));
-            const auto radiance = [&](double at) {
-                const glm::vec3 view(direction(std::abs(at), at < 0 ? phi + 180 : phi));
-                return static_cast<double>(brdf.evaluate(light, view)) * view.z;
-            };
-            EXPECT_LT(corner(radiance), 0.1) << theta << " " << phi;
-            double peak = 0;
-            for (double at = -86; at < 86; at += 1)
-                peak = std::max(peak, radiance(at));
-            EXPECT_GT(corner([&](double at) { return std::min(radiance(at), 0.5 * peak); }), 0.1)
-                << theta << " " << phi; // control
-        }
-}
-
-// What is rendered is what was fitted.
-TEST(SlopeTable, HoldsTheLobes) {
-    const auto error = [](double roughness, double of_table) {
-        YarnLobes lobes = satin_lobes();
-        lobes.roughness = of_table;
-        const SlopeTable table(lobes, true, {});
-        lobes.roughness = roughness;
-        Random random(5);
-        double squares = 0, count = 0;
-        for (int i = 0; i < 4000; ++i) {
-            const glm::vec3 u = random.point();
-            const glm::dvec3 half = direction(std::acos(u.x) / kDegree, 360.0 * u.y);
-            if (const double d = yarn_facets(lobes, 1, half); d > 1e-3) {
-                squares += std::pow(table.at<1>(glm::vec3(half)) / d - 1, 2);
-                ++count;
-            }
-        }
-        return std::sqrt(squares / count);
-    };
-    for (const double roughness : {0.02, 0.03, 0.06, 0.13, 0.4})
-        EXPECT_LT(error(roughness, roughness), 0.003) << roughness;
-    EXPECT_GT(error(0.06, 0.061), 0.003); // control
 }
 
 TEST(YarnBrdf, RefusesReflectancesOutOfRange) {

@@ -40,21 +40,13 @@ inline float bed_angle(float across, float up) {
 
 inline float FilamentBed::at(float light, float viewer) const {
     constexpr float kHalf = 0.5f * (kNodes - 1);
-    // A quadratic B-spline: smooth, and never outside of what the nodes have
-    const auto weights = [](float t) { // of the nodes about the nearest, t away from it
-        const float below = 0.5f - t, above = 0.5f + t;
-        return glm::vec3(0.5f * below * below, 0.75f - t * t, 0.5f * above * above);
-    };
     const float x = (light + 1) * kHalf, y = (viewer + 1) * kHalf;
-    const int i = std::clamp(static_cast<int>(x + 0.5f), 1, kNodes - 2);
-    const int j = std::clamp(static_cast<int>(y + 0.5f), 1, kNodes - 2);
-    const glm::vec3 wx = weights(std::clamp(x - static_cast<float>(i), -0.5f, 0.5f));
-    const glm::vec3 wy = weights(std::clamp(y - static_cast<float>(j), -0.5f, 0.5f));
-    const float *row = &value_[static_cast<std::size_t>((i - 1) * kNodes + j - 1)];
-    float sum = 0;
-    for (int k = 0; k < 3; ++k, row += kNodes)
-        sum += wx[k] * (wy[0] * row[0] + wy[1] * row[1] + wy[2] * row[2]);
-    return sum;
+    const int i = std::clamp(static_cast<int>(x), 0, kNodes - 2);
+    const int j = std::clamp(static_cast<int>(y), 0, kNodes - 2);
+    const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);
+    const float *const row = &value_[static_cast<std::size_t>(i * kNodes + j)];
+    const float *const next = row + kNodes;
+    return (1 - s) * ((1 - t) * row[0] + t * row[1]) + s * ((1 - t) * next[0] + t * next[1]);
 }
 
 } // namespace tsuya
