@@ -48,7 +48,8 @@ if(count LESS 3)
 endif()
 
 foreach(component IN LISTS COMPONENTS)
-    if(NOT EXISTS "${CONSUMER}/${component}.cpp")
+    # sdk is used by the program of render, its topmost part
+    if(NOT component STREQUAL "sdk" AND NOT EXISTS "${CONSUMER}/${component}.cpp")
         message(FATAL_ERROR "the component '${component}' needs a user: ${CONSUMER}/${component}.cpp")
     endif()
     configure(status out ${component})
