@@ -14,7 +14,7 @@ struct LabRun final : Command {
         o.argument(&plan, "PLAN.jsonl", "plan of the session").required();
         o.option("-o,--output", &folder, "SESSION", "new folder of the session").required();
         session.options(o);
-        o.example("tsuya lab run satin.plan.jsonl -o satin");
+        o.example("tsuya lab run satin.plan.jsonl -o satin --dry-run");
         o.notes("Lamp and shutter are off at the end of every run. Exit status 4: finished, but "
                 "frames are\nmissing whose pictures were rejected; `tsuya lab resume` takes them "
                 "again.");

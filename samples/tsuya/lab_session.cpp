@@ -3,19 +3,22 @@
 #include "lab_session.h"
 
 #include <iostream>
-#include <numeric>
 
 #include <poll.h>
 #include <unistd.h>
 
 #include "json.h"
-#include "tsuya/color/camera_frame.h"
+#include "tsuya/lab/frame_reader.h"
 #include "tsuya/lab/progress_relay.h"
 #include "tsuya/lab/session_job.h"
 #include "tsuya/lab/supervisor.h"
+#include "tsuya/lab/virtual_camera.h"
+#include "tsuya/sdk/fabric.h"
 
 namespace tsuya::program {
 namespace {
+
+constexpr double kGrey = 0.02; // 1/sr, of a cloth that nobody has named
 
 /// Whether the operator has pressed Enter since the last call.
 bool enter_was_pressed() {
@@ -39,27 +42,27 @@ void ask(const std::string &what) {
         takes ? write(STDERR_FILENO, line.data(), line.size()) : 0;
 }
 
-/// What a picture says, with the mean of the patch in its middle.
-lab::FrameFacts facts_of(const std::filesystem::path &file, const lab::RigCamera &camera) {
-    const CameraFrame frame = read_frame(file);
-    const int side = camera.patch;
-    if (frame.width < side || frame.height < side)
-        throw Error({"the picture is smaller than the patch", file.string(),
-                     "expected " + std::to_string(side) + " pixels along each side"});
-    double sum = 0;
-    const std::size_t count = static_cast<std::size_t>(side) * frame.image.channels.size();
-    for (int y = 0; y < side; ++y) {
-        const float *const row =
-            frame.image.pixel((frame.width - side) / 2, (frame.height - side) / 2 + y);
-        sum = std::accumulate(row, row + count, sum);
-    }
-    return {.exposure_s = frame.exposure_s,
-            .patch_mean = sum / (static_cast<double>(count) * side) - camera.black};
+/// What the surface of a fabric reflects; its body is left out, as in a black cloth.
+std::function<double(const DirectionPair &)> reflectance_of(const std::filesystem::path &fabric) {
+    if (fabric.empty())
+        return [](const DirectionPair &) { return kGrey; };
+    const Material material = resolve(read_fabric(fabric), fabric.string());
+    if (!material.specular)
+        throw Error({"the fabric has no specular part", fabric.string(), "expected a cloth"});
+    return [brdf = *material.specular](const DirectionPair &pair) {
+        return static_cast<double>(
+            brdf.evaluate(glm::vec3(pair.to_light()), glm::vec3(pair.to_viewer())));
+    };
 }
 
 } // namespace
 
 void SessionOptions::options(Options &o) {
+    const Option &dry = o.flag("--dry-run", &dry_run_,
+                               "simulated lines, axes and camera in virtual time, no hardware");
+    o.option("--fabric", &fabric_, "F.fabric.toml",
+             "fabric that the camera of a dry run sees; without it, a diffuse grey")
+        .needs(dry);
     o.flag("--wait", &wait_, "wait for a lamp that may not be lit yet; without it, an error");
     o.option("--tries", &tries_, "N", "tries of a frame or a movement").range(1, 100);
     o.flag("--json", &json_, "print the report as JSON");
@@ -68,13 +71,19 @@ void SessionOptions::options(Options &o) {
 /// The lines are let go before anything waits for a terminal that does not take the progress.
 lab::SessionResult SessionOptions::result(const std::filesystem::path &folder,
                                           Console &console) const {
-    const lab::SessionJob job{.folder = folder,
-                              .read = facts_of,
-                              .wait = wait_,
-                              .tries = tries_,
-                              .library_threads = lab::other_threads(), // none is our own yet
-                              .ask = ask,
-                              .answered = enter_was_pressed};
+    lab::SessionJob job{.folder = folder,
+                        .read = lab::read_frame_facts,
+                        .wait = wait_,
+                        .tries = tries_,
+                        .library_threads = lab::other_threads(), // none is our own yet
+                        .ask = ask,
+                        .answered = enter_was_pressed};
+    if (dry_run_)
+        job.simulated_camera = [&](const lab::RigFile &rig, lab::Clock &clock) {
+            return std::make_unique<lab::VirtualCamera>(
+                lab::VirtualScene{.cloth = reflectance_of(fabric_)}, rig.camera,
+                lab::VirtualCameraSettings{}, &clock);
+        };
     lab::ProgressRelay relay(console.progress());
     const SignalShield shield;
     return lab::run_session_job(job, relay.progress());

@@ -18,8 +18,9 @@ class SessionOptions {
   private:
     lab::SessionResult result(const std::filesystem::path &folder, Console &console) const;
 
-    bool wait_ = false, json_ = false;
+    bool dry_run_ = false, wait_ = false, json_ = false;
     int tries_ = 3;
+    std::filesystem::path fabric_{};
 };
 
 } // namespace tsuya::program

@@ -144,6 +144,48 @@ TEST(MeasureSession, NamesWhatItLeavesOut) {
     EXPECT_STREQ(name_of(LeftOutReason::wrong_exposure), "wrong-exposure");
 }
 
+// As where the lamp is looked at while it warms up, in one exposure that turns out too long.
+TEST(MeasureSession, ClippedWhiteFramesAreNoReference) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    made.scene.flicker = 0.002;
+    Session session = make_virtual_session(folder / "s", made);
+    CountedFrame beside;
+    for (const CountedFrame &frame : session.frames)
+        if (frame.planned.kind == FrameKind::white && frame.planned.exposure_s == 10)
+            beside = frame;
+    CameraFrame clipped = read_frame(beside.file);
+    std::fill(clipped.image.data.begin(), clipped.image.data.end(), 15800.0f);
+    beside.number.reset();
+    beside.file = folder / "clipped.tif";
+    beside.time_s = session.frames.front().time_s - 60;
+    write_frame(beside.file, clipped);
+    const MeasureSettings settings{.repeat_mm = made.scene.repeat_mm};
+    const SessionMeasurement before = measure_session(session, settings);
+    session.warm_up.push_back(beside);
+    const SessionMeasurement after = measure_session(session, settings);
+    EXPECT_EQ(after.channels[0].flicker, before.channels[0].flicker);
+    EXPECT_EQ(after.channels[0].views[0].brdf_per_sr, before.channels[0].views[0].brdf_per_sr);
+    ASSERT_EQ(after.warnings.size(), before.warnings.size() + 1);
+    EXPECT_NE(after.warnings[0].find("1 views of the white standard"), std::string::npos);
+}
+
+TEST(VirtualCamera, PicturesOfAClippedSampleAreNoCopies) {
+    const Scratch folder;
+    VirtualCamera camera({}, {.black = 512, .saturation = 15800, .e_per_dn = 2.5});
+    std::vector<std::string> bytes;
+    for (const std::size_t n : {0, 1}) {
+        const Shot shot{.number = n,
+                        .planned = {.kind = FrameKind::white, .exposure_s = 100},
+                        .file = folder / (std::to_string(n) + ".tif"),
+                        .time_s = 1e9 + 200 * static_cast<double>(n)};
+        camera.expose(shot);
+        camera.collect(shot);
+        bytes.push_back(read_file(shot.file));
+    }
+    EXPECT_NE(bytes[0], bytes[1]);
+}
+
 TEST(MeasureSession, AJumpOfTheLampCostsTheViewsAboutIt) {
     const Scratch folder;
     VirtualSession made = small_session();

@@ -8,6 +8,8 @@
 #include "tsuya/color/camera_frame.h"
 #include "tsuya/lab/plan.h"
 #include "tsuya/lab/safety.h"
+#include "tsuya/sdk/file.h"
+#include "tsuya/sdk/reflectance_file.h"
 
 namespace tsuya::program {
 namespace {
@@ -89,6 +91,48 @@ TEST(LabCommands, RunTellsWhatFailsAndStatusHowFarItCame) {
     EXPECT_NE(run({"run", plan, "-o", session}).err.find("the folder is not empty"),
               std::string::npos);
     EXPECT_EQ(run({"run", plan, "-o", session, "--tries", "0"}).status, 2);
+    EXPECT_EQ(run({"status", (scratch / "none").string()}).status, 1);
+}
+
+TEST(LabCommands, ASessionWithoutARigFromPlanToPictures) {
+    const Scratch scratch;
+    const auto run = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), "lab");
+        return run_program(words, scratch.folder());
+    };
+    const std::string plan = (scratch / "a.plan.jsonl").string();
+    const std::string session = (scratch / "session").string();
+    ASSERT_EQ(run({"plan", TSUYA_RIG_SAMPLE, "--views", "few:45", "-o", plan}).status, 0);
+    const Outcome done = run({"run", plan, "-o", session, "--dry-run", "--json"});
+    ASSERT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(json::parse(done.out).at("missing"), 0);
+    const Outcome status = run({"status", session, "--json"});
+    ASSERT_EQ(status.status, 0) << status.err;
+    const json report = json::parse(status.out);
+    EXPECT_EQ(report.at("schema"), "tsuya-lab-status 1");
+    EXPECT_EQ(report.at("counted"), report.at("planned"));
+    EXPECT_EQ(report.at("lamp_lit"), false);
+    EXPECT_EQ(report.at("running"), "");
+    EXPECT_NE(run({"status", session}).out.find("not running"), std::string::npos);
+    const std::string table = (scratch / "a.csv").string();
+    const std::string measured = (scratch / "a.json").string();
+    const Outcome measure = run({"measure", session, "-o", table, "--report", measured});
+    ASSERT_EQ(measure.status, 0) << measure.err;
+    const ReflectanceTable grey = read_reflectance_table(table);
+    EXPECT_EQ(grey.rows.size(), 4u) << "45 degrees, at 4 azimuths";
+    for (const ReflectanceRow &row : grey.rows)
+        EXPECT_NEAR(row.brdf_per_sr, 0.02, 3 * row.sigma_per_sr);
+    const json parts = json::parse(read_file(measured));
+    EXPECT_EQ(parts.at("schema"), "tsuya-lab-measure 1");
+    EXPECT_EQ(parts.at("channels").at(0).at("views").size(), grey.rows.size());
+    EXPECT_EQ(run({"measure", session, "-o", table, "--repeat-mm", "0.4"}).status, 2);
+    EXPECT_EQ(run({"measure", session, "-o", table, "--repeat-mm", "0.4,x"}).status, 2);
+    EXPECT_EQ(run({"measure", session, "-o", table, "--without", "shadow"}).status, 2);
+    EXPECT_EQ(run({"measure", (scratch / "none").string(), "-o", table}).status, 1);
+    EXPECT_EQ(run({"resume", session, "--dry-run"}).status, 0);
+    EXPECT_EQ(run({"resume", session}).status, 1);                       // was begun as a dry run
+    EXPECT_EQ(run({"run", plan, "-o", session, "--dry-run"}).status, 1); // is there
+    EXPECT_EQ(run({"run", plan, "-o", session, "--fabric", "x"}).status, 2);
     EXPECT_EQ(run({"status", (scratch / "none").string()}).status, 1);
 }
 

@@ -191,6 +191,10 @@ SessionMeasurement measure_session(const Session &session, const MeasureSettings
     agree(measured);
     for (ChannelMeasurement &channel : measured.channels)
         fill_table(channel, session);
+    if (light.clipped_white > 0)
+        measured.warnings.push_back(std::to_string(light.clipped_white) +
+                                    " views of the white standard are clipped under every exposure "
+                                    "and are not used");
     if (measured.channels[0].flicker == 0)
         measured.warnings.emplace_back(kNoFlicker);
     measured.channel_difference = difference_of(measured.channels);

@@ -132,12 +132,19 @@ class SessionLightReader {
     }
 
     void keep(const PlannedFrame &planned, ViewLight view) {
-        if (planned.kind == FrameKind::white)
+        if (planned.kind == FrameKind::white && is_clipped(view))
+            ++light_.clipped_white;
+        else if (planned.kind == FrameKind::white)
             light_.white.push_back(std::move(view));
         else if (planned.kind == FrameKind::trap)
             light_.trap.push_back(std::move(view));
         else if (!rejected(planned, view))
             light_.cloth.push_back(std::move(view));
+    }
+
+    static bool is_clipped(const ViewLight &view) {
+        return std::any_of(view.colours.begin(), view.colours.end(),
+                           [](const PatchLight &colour) { return colour.middle.clipped > 0; });
     }
 
     bool rejected(const PlannedFrame &planned, const ViewLight &view) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 #include "tsuya/color/camera_frame.h"
@@ -29,6 +30,16 @@ Random random_of(std::uint32_t seed, std::string_view purpose, std::uint64_t num
 /// A frame beside the plan is known by its time.
 std::uint64_t number_of(const Shot &shot) {
     return shot.number ? *shot.number : static_cast<std::uint64_t>(std::llround(shot.time_s * 1e3));
+}
+
+/// As cameras write it, in UTC. Without it two pictures of a clipped white would be copies.
+std::string time_text(double time_s) {
+    const auto seconds = static_cast<std::time_t>(time_s);
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc);
+    return text;
 }
 
 /// The texture of a cloth: light of each pixel over the mean.
@@ -108,7 +119,8 @@ CameraFrame VirtualCamera::picture_of(const Shot &shot, double exposure_s) const
                              : scene_.stray * light_of_white(shot.planned, middle_s) * flicker;
     Texture texture(scene_, camera_, shot.planned, settings_.seed);
     CameraFrame frame{.image = Image::make(settings_.width, settings_.height, {"Y"}),
-                      .exposure_s = exposure_s};
+                      .exposure_s = exposure_s,
+                      .time = time_text(shot.time_s)};
     for (int y = 0; y < settings_.height; ++y)
         for (int x = 0; x < settings_.width; ++x) {
             const double rate =
