@@ -99,8 +99,10 @@ struct FabricEvaluate final : Command {
         if (part == "surface")
             return make_model(model, fabric, fabric_file.string(), progress);
         Fabric dyed = with_model(fabric, model, fabric_file.string());
-        dyed.colours.dye_all(Spectrum::constant(*reflectance));
-        dyed.colours.transmittance = Spectrum::constant(0);
+        // Its surface without a tint, as it is compared; of other models no part follows yarns
+        dyed.colours = {.dye = Spectrum::constant(*reflectance), .lustre = fabric.colours.lustre};
+        if (model == "yarn")
+            dyed.colours.delustre = fabric.colours.delustre;
         const Material material = resolve(dyed, fabric_file.string(), progress);
         const BrdfFunction body = coloured_part(material, kAnyWavelength);
         if (part == "body" || !material.specular)

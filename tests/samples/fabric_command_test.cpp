@@ -68,6 +68,28 @@ TEST(FabricEvaluate, ReportsEveryMeasureOfEveryModelAsJson) {
     }
 }
 
+// Tints and a delustre of yarns are nothing that other models could not be compared with.
+TEST(FabricEvaluate, ComparesEveryModelInTheDye) {
+    const Scratch scratch;
+    const std::string table = small_table(scratch);
+    const auto compared = [&](const FabricColours &colours) {
+        Fabric fabric = read_fabric(satin());
+        fabric.colours = colours;
+        const std::string file = (scratch / "tinted.fabric.toml").string();
+        write_fabric(fabric, file);
+        const Outcome done = run(scratch, {"evaluate", file, "--against", table, "--model", "all",
+                                           "--reflectance", "0.4", "--json"});
+        EXPECT_EQ(done.status, 0) << done.err;
+        return json::parse(done.out)["results"];
+    };
+    const json plain = compared({.delustre = 0.3});
+    EXPECT_GT(plain.size(), 3u);
+    EXPECT_EQ(compared({.delustre = 0.3,
+                        .specular_tint = Spectrum::constant(0),
+                        .weft_tint = Spectrum::constant(0)}),
+              plain);
+}
+
 // An even table of the reflectance is what a dull cloth in that dye shows: near by the body alone,
 // far by the surface.
 TEST(FabricEvaluate, ComparesDyedClothByItsParts) {

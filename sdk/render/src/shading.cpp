@@ -10,7 +10,6 @@ namespace {
 constexpr LambertBrdf kLambert{};
 // Least share of the samples that either part gets where both reflect.
 constexpr float kLeastShare = 0.1f;
-constexpr float kLeastTransmission = 1e-3f;
 
 } // namespace
 
@@ -24,7 +23,7 @@ Shading::Shading(const Material &material, const MeanColours &means, bool keep_i
     if (!material.specular || !(material.has_specular() || keep_idle_parts))
         return;
     specular_ = material.specular;
-    mean_albedo_ = mean_albedo(*specular_);
+    mean_passed_ = mean_passed(*specular_);
 }
 
 float Shading::albedo(const glm::vec3 &direction) const {
@@ -37,8 +36,7 @@ ViewTerms Shading::view_terms(const glm::vec3 &to_viewer) const {
         return {};
     ViewTerms view;
     if (couples_)
-        view.diffuse_scale =
-            (1 - albedo(to_viewer)) / std::max(1 - mean_albedo_, kLeastTransmission);
+        view.diffuse_scale = (1 - albedo(to_viewer)) / mean_passed_;
     share_samples(to_viewer, view);
     return view;
 }
@@ -106,6 +104,8 @@ Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
 
 std::optional<LightSample> Shading::sample(const glm::vec3 &to_viewer, const ViewTerms &view,
                                            glm::vec2 choice, glm::vec2 direction) const {
+    if (!(to_viewer.z > 0))
+        return std::nullopt;
     const glm::vec3 u(direction, choice.y);
     if (specular_ && choice.x < view.specular_share) {
         const auto sampled = specular_->sample(to_viewer, u);
@@ -131,7 +131,7 @@ std::optional<LightSample> Shading::sample(const glm::vec3 &to_viewer, const Vie
         return LightSample{to_light, weigh(to_light, to_viewer, view)};
     }
     glm::vec3 to_light = kLambert.draw(to_viewer, u);
-    if (!(to_light.z > 0 && to_viewer.z > 0) || !diffuse_)
+    if (!(to_light.z > 0) || !diffuse_)
         return std::nullopt;
     if (choice.y < transmitted_share_)
         to_light.z = -to_light.z;

@@ -90,7 +90,7 @@ class Shading {
     bool two_tints_, two_dyes_;
     MeanColours means_;
     float transmitted_share_; // of the samples of the diffuse part
-    float mean_albedo_ = 0;
+    float mean_passed_ = 1;   // of what the specular part does not reflect
 };
 
 } // namespace tsuya

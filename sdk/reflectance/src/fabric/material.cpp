@@ -30,14 +30,22 @@ template <class Function> Spectrum mapped(Spectrum spectrum, const Function &fun
     return spectrum;
 }
 
+// Of a surface that reflects all: what the coloured part is divided by stays above 0.
+constexpr double kLeastPassed = 1e-3;
+
+// Of one system, over the surface of the cloth.
+double filaments(const YarnLobes &lobes, std::size_t axis) {
+    return std::accumulate(lobes.surface[axis].begin(), lobes.surface[axis].end(), 0.0);
+}
+
 // Of the filaments of both systems.
 double weft_share(const YarnLobes &lobes) {
-    const auto filaments = [&](std::size_t axis) {
-        return std::accumulate(lobes.surface[axis].begin(), lobes.surface[axis].end(), 0.0);
-    };
-    const double weft = filaments(0), both = weft + filaments(1);
+    const double weft = filaments(lobes, 0), both = weft + filaments(lobes, 1);
     return both > 0 ? weft / both : 0.5;
 }
+
+// There are filaments that the coloured part can follow.
+bool has_filaments(const YarnLobes &lobes) { return filaments(lobes, 0) + filaments(lobes, 1) > 0; }
 
 // The mean of an albedo at 8 degrees from the normal, where the port of a spectrophotometer is.
 template <class Albedo> double at_port(const Albedo &albedo) {
@@ -78,20 +86,21 @@ struct Port {
 // reflects or does not as this one's
 void add_colours(const FabricColours &colours, Material &material, const Material *made,
                  const Progress &progress) {
-    constexpr double kLeastPassed = 1e-3; // of a surface that reflects all
+    // Of light, for viewers too: so the renderer scales the Lambertian part
     const auto surface = [&](const glm::vec3 &d) {
-        return material.has_specular() ? std::min(material.specular->albedo_of_view(d), 1.0f)
+        return material.has_specular() ? std::min(material.specular->albedo_of_light(d), 1.0f)
                                        : 0.0f;
     };
     const auto *const yarns = material.specular ? material.specular->get_if<YarnBrdf>() : nullptr;
     Port port{.colours = colours, .even = std::max(1 - at_port(surface), kLeastPassed)};
-    if (yarns && colours.any_dye() && colours.delustre != 1.0) {
+    if (yarns && has_filaments(yarns->lobes()) && colours.any_dye() && colours.delustre != 1.0) {
         if (made && made->body && made->has_specular() == material.has_specular())
             material.body = made->body;
         else
             material.body.emplace(yarns->lobes(), surface, progress);
         port.has_body = true;
-        port.body = at_port([&](const glm::vec3 &d) { return material.body->albedo(d); });
+        port.body = std::max(at_port([&](const glm::vec3 &d) { return material.body->albedo(d); }),
+                             kLeastPassed);
     }
     const Spectrum &weft = colours.dye_of_weft(), &warp = colours.dye_of_warp();
     const double share = yarns ? weft_share(yarns->lobes()) : 0.5;
@@ -137,7 +146,7 @@ Material resolve(const Fabric &fabric, const std::string &where, const Material 
     return resolve_with(fabric, where, &made, progress);
 }
 
-float mean_albedo(const Brdf &brdf) {
+float mean_passed(const Brdf &brdf) {
     constexpr int kSteps = 32; // midpoint rule
     double sum = 0;
     for (int i = 0; i < kSteps; ++i)
@@ -148,13 +157,13 @@ float mean_albedo(const Brdf &brdf) {
             sum += std::min(1.0f, brdf.albedo_of_light({s * std::cos(phi), s * std::sin(phi),
                                                         std::sqrt(1 - sine2)}));
         }
-    return static_cast<float>(sum / (kSteps * kSteps));
+    return static_cast<float>(std::max(1 - sum / (kSteps * kSteps), kLeastPassed));
 }
 
 // The Lambertian part lies below the surface as in [Kelemen].
 BrdfFunction coloured_part(const Material &material, double wavelength_nm) {
     const bool covered = material.has_specular();
-    const double passed = covered ? 1 - mean_albedo(*material.specular) : 1;
+    const double passed = covered ? mean_passed(*material.specular) : 1;
     return [=, dye = material.dye.at(wavelength_nm), weft = material.weft_body.at(wavelength_nm),
             warp = material.warp_body.at(wavelength_nm)](const glm::dvec3 &l, const glm::dvec3 &v) {
         const glm::vec3 light(l), viewer(v);

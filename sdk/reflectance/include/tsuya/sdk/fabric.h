@@ -180,8 +180,9 @@ Material resolve(const Fabric &fabric, const std::string &where, const Progress 
 Material resolve(const Fabric &fabric, const std::string &where, const Material &made,
                  const Progress &progress = {});
 
-/// Mean of a model's albedo over the cosine-weighted hemisphere, in 0..1.
-float mean_albedo(const Brdf &brdf);
+/// What a model lets through to the Lambertian part below it: the mean of 1 - albedo over the
+/// cosine-weighted hemisphere, at least 0.001 where the model reflects all. In 0.001..1.
+float mean_passed(const Brdf &brdf);
 
 /// The coloured part at one wavelength as a function, for comparisons: what was inside the
 /// filaments, without the specular part.
