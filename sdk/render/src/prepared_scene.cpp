@@ -82,12 +82,14 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
     for (const Object &object : scene.objects)
         used[object.fabric.value] = true;
     std::vector<Material> made;
-    // A fabric before, made, with the same specular part: one cloth in several colours
+    // A fabric before, made, with the same specular part: one cloth in several colours; one with a
+    // body if there is one, so that the next dye need not make it again
     const auto alike = [&](std::size_t i) {
-        for (std::size_t j = 0; j < i; ++j)
+        const Material *found = nullptr;
+        for (std::size_t j = 0; j < i && !(found && found->body); ++j)
             if (used[j] && scene.fabrics[j].specular == scene.fabrics[i].specular)
-                return std::optional(j);
-        return std::optional<std::size_t>();
+                found = &made[j];
+        return found;
     };
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
         if (progress.stopped())
@@ -95,8 +97,8 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
         const std::string where = "fabrics." + scene.fabrics[i].name;
         if (!used[i])
             made.emplace_back();
-        else if (const auto j = alike(i))
-            made.push_back(resolve(scene.fabrics[i], where, made[*j], progress));
+        else if (const Material *const same = alike(i))
+            made.push_back(resolve(scene.fabrics[i], where, *same, progress));
         else
             made.push_back(resolve(scene.fabrics[i], where, progress));
         const Material &material = made.back();

@@ -150,9 +150,8 @@ bool needs_frames(const Fabric &fabric) {
 }
 
 bool has_body(const Fabric &fabric) {
-    return reflects(fabric.specular) && !std::holds_alternative<std::monostate>(fabric.specular) &&
-           std::visit(TellsYarnsApart{}, fabric.specular) && fabric.colours.any_dye() &&
-           fabric.colours.delustre != 1.0;
+    return reflects(fabric.specular) && std::visit(TellsYarnsApart{}, fabric.specular) &&
+           fabric.colours.any_dye() && fabric.colours.delustre != 1.0;
 }
 
 double f0_of(const CarriedViews &views) {
