@@ -4,9 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <OpenImageIO/imageio.h>
-
-#include "tsuya/sdk/error.h"
+#include "oiio_input.h"
 
 namespace tsuya {
 namespace {
@@ -59,25 +57,12 @@ bool profile_names_srgb(const OIIO::ImageSpec &spec) {
 
 struct FrameInput::State {
     std::unique_ptr<OIIO::ImageInput> file;
-    [[noreturn]] void fail(const std::filesystem::path &path, std::string cause) const {
-        std::replace(cause.begin(), cause.end(), '\n', ' ');
-        throw Error({"cannot read the picture: " + (cause.empty() ? "unknown cause" : cause),
-                     path.string(), "expected a complete picture"});
-    }
 };
 
 FrameInput::FrameInput(std::filesystem::path path)
     : path_(std::move(path)), state_(std::make_unique<State>()) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path_, ignored))
-        throw Error({"there is no such file", path_.string(), "expected a readable picture"});
     const OIIO::ImageSpec config = raw_numbers();
-    state_->file = OIIO::ImageInput::open(path_.string(), &config);
-    if (!state_->file)
-        state_->fail(path_, OIIO::geterror());
-    const OIIO::ImageSpec &spec = state_->file->spec();
-    if (spec.deep || spec.depth > 1)
-        throw Error({"the picture is deep or a volume", path_.string(), "expected a flat picture"});
+    state_->file = open_picture(path_, &config);
 }
 
 FrameInput::~FrameInput() = default;
@@ -121,7 +106,7 @@ Image FrameInput::read(const PixelArea &area) {
     std::vector<float> rows(row * static_cast<std::size_t>(area.height));
     if (!state_->file->read_scanlines(0, 0, area.y, area.y + area.height, 0, 0, spec.nchannels,
                                       OIIO::TypeDesc::FLOAT, rows.data()))
-        state_->fail(path_, state_->file->geterror());
+        fail_reading(path_, state_->file->geterror());
     const float largest = largest_number(spec.format);
     Image image = Image::make(area.width, area.height, spec.channelnames);
     for (std::size_t y = 0; y < static_cast<std::size_t>(area.height); ++y) {

@@ -6,8 +6,8 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <tbb/task_arena.h>
 
+#include "oiio_input.h"
 #include "rows.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -18,21 +18,6 @@ namespace {
 // Rows per call. A multiple of the 16 rows that EXR's zip packs as one; many blocks keep all cores
 // busy, few keep the buffer small.
 constexpr int kRowsAtOnce = 128;
-
-// Messages of OpenImageIO may run over many lines.
-std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.empty() ? "unknown cause" : text;
-}
-
-/// Gives OpenImageIO and OpenEXR as many threads as the caller's arena has, see
-/// detail::run_with_threads. The number is the library's own and global: of two callers at once,
-/// the later one's holds.
-void use_threads_of_arena() {
-    const int threads = tbb::this_task_arena::max_concurrency();
-    OIIO::attribute("threads", threads);
-    OIIO::attribute("exr_threads", threads);
-}
 
 /// Encodes one picture in memory, and then writes the file at once: OpenImageIO reports success
 /// where the last bytes of a file do not fit on the disk.
@@ -119,19 +104,8 @@ void write_exr_picture(const std::filesystem::path &path, const OutputPicture &p
 }
 
 InputPicture read_picture(const std::filesystem::path &path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored))
-        throw Error({std::filesystem::exists(path, ignored) ? "it is no regular file"
-                                                            : "there is no such file",
-                     path.string(), "expected a readable picture"});
-    use_threads_of_arena();
-    const auto in = OIIO::ImageInput::open(path.string());
-    if (!in)
-        throw Error({"cannot read the picture: " + one_line(OIIO::geterror()), path.string(),
-                     "expected a picture such as PNG, JPEG, TIFF or EXR"});
+    const auto in = open_picture(path);
     const OIIO::ImageSpec &spec = in->spec();
-    if (spec.deep || spec.depth > 1)
-        throw Error({"the picture is deep or a volume", path.string(), "expected a flat picture"});
     InputPicture picture;
     picture.format = in->format_name();
     picture.image = Image::make(spec.width, spec.height, spec.channelnames);
@@ -139,8 +113,7 @@ InputPicture read_picture(const std::filesystem::path &path) {
         if (value.type() == OIIO::TypeDesc::STRING)
             picture.attributes[value.name().string()] = value.get_string();
     if (!in->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, picture.image.data.data()))
-        throw Error({"cannot read the picture: " + one_line(in->geterror()), path.string(),
-                     "expected a complete picture"});
+        fail_reading(path, in->geterror());
     return picture;
 }
 

@@ -1,0 +1,45 @@
+#include "oiio_input.h"
+
+#include <algorithm>
+
+#include <tbb/task_arena.h>
+
+#include "tsuya/sdk/error.h"
+
+namespace tsuya {
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.empty() ? "unknown cause" : text;
+}
+
+void use_threads_of_arena() {
+    const int threads = tbb::this_task_arena::max_concurrency();
+    OIIO::attribute("threads", threads);
+    OIIO::attribute("exr_threads", threads);
+}
+
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path,
+                                               const OIIO::ImageSpec *config) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+        throw Error({std::filesystem::exists(path, ignored) ? "it is no regular file"
+                                                            : "there is no such file",
+                     path.string(), "expected a readable picture"});
+    use_threads_of_arena();
+    auto input = OIIO::ImageInput::open(path.string(), config);
+    if (!input)
+        throw Error({"cannot read the picture: " + one_line(OIIO::geterror()), path.string(),
+                     "expected a picture such as PNG, JPEG, TIFF or EXR"});
+    const OIIO::ImageSpec &spec = input->spec();
+    if (spec.deep || spec.depth > 1)
+        throw Error({"the picture is deep or a volume", path.string(), "expected a flat picture"});
+    return input;
+}
+
+void fail_reading(const std::filesystem::path &path, const std::string &cause) {
+    throw Error({"cannot read the picture: " + one_line(cause), path.string(),
+                 "expected a complete picture"});
+}
+
+} // namespace tsuya

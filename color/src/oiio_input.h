@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Opens picture files through OpenImageIO, with its errors translated; shared by the readers of
+/// pictures and of a camera's frames.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+
+namespace tsuya {
+
+/// OpenImageIO's message on one line.
+std::string one_line(std::string text);
+
+/// Gives OpenImageIO and OpenEXR as many threads as the caller's arena has, see
+/// detail::run_with_threads. The number is the library's own and global: of two callers at once,
+/// the later one's holds.
+void use_threads_of_arena();
+
+/// Opens a flat picture. Throws Error at the path: no such file, no picture, deep or a volume.
+/// \param config how a reader shall read; null: as it does by itself
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path,
+                                               const OIIO::ImageSpec *config = nullptr);
+
+/// Throws the Error of a picture that ended early or cannot be decoded.
+[[noreturn]] void fail_reading(const std::filesystem::path &path, const std::string &cause);
+
+} // namespace tsuya
