@@ -23,11 +23,10 @@ class Drawing:
             f'<text x="{x}" y="{y}" font-size="{size}" font-weight="{weight}" fill="{colour}" '
             f'text-anchor="{anchor}">{escape(words)}</text>')
 
-    def box(self, x, y, width, height, layer, title, *lines, dashed=False):
-        dash = ' stroke-dasharray="5,3"' if dashed else ""
+    def box(self, x, y, width, height, layer, title, *lines):
         self.parts.append(
             f'<rect x="{x}" y="{y}" width="{width}" height="{height}" rx="6" '
-            f'fill="{FILL[layer]}" stroke="#555"{dash}/>')
+            f'fill="{FILL[layer]}" stroke="#555"/>')
         top = y + height / 2 - 8 * len(lines) + 5
         self.text(x + width / 2, top, title, weight="bold")
         for i, line in enumerate(lines):
@@ -57,9 +56,9 @@ class Drawing:
 def data():
     d = Drawing(1000, 560)
     # What is measured
-    d.box(20, 20, 180, 60, "lab", "lab/rig", "lamp and shutter of a rig")
+    d.box(20, 20, 180, 60, "lab", "lab/rig, session", "lamp, axes, camera")
     d.box(20, 100, 180, 60, "lab", "lab/weave", "draft, yarns, filaments")
-    d.box(230, 20, 170, 60, "file", "photographs", "over a white standard", dashed=True)
+    d.box(230, 20, 170, 60, "lab", "lab/measure", "over a white standard")
     d.box(230, 100, 170, 60, "lab", "lab/goniometer", "photons in filaments")
     d.box(430, 60, 180, 60, "values", "ReflectanceTable", "TABLE.csv")
     d.box(640, 60, 150, 60, "reflectance", "Bard", "surface through views")
@@ -104,8 +103,8 @@ def data():
     d.text(365, 400, "lamps", size=11, colour="#666")
     d.arrow((610, 485), (625, 485), (625, 290), (805, 290), (805, 110), (820, 110))
     d.text(710, 285, "dyes", size=11, colour="#666")
-    d.text(500, 548, "Boxes are data or the layer that makes it; one colour is one layer. "
-                     "Dashed: outside of Tsuya.", size=11.5, colour="#555")
+    d.text(500, 548, "Boxes are data or the layer that makes it; one colour is one layer.",
+           size=11.5, colour="#555")
     d.write("data.svg")
 
 
@@ -119,11 +118,11 @@ def layers():
     d.box(20, 244, 200, 60, "render", "sdk/render", "scene, plan, path tracer")
     d.box(20, 324, 200, 60, "reflectance", "sdk/reflectance", "views, models, fabrics")
     d.box(250, 324, 200, 60, "garment", "garment", "mesh, files, repair, limit")
-    d.box(480, 324, 180, 60, "color", "color", "lamps, dyes, pictures")
-    d.box(480, 244, 180, 60, "lab", "lab/weave", "drafts, yarns, filaments")
-    d.box(680, 244, 120, 60, "lab", "lab/goniometer", "photons to a table")
-    d.box(815, 244, 80, 60, "lab", "lab/measure", "to a table")
-    d.box(905, 244, 75, 60, "lab", "lab/session", "by a plan")
+    d.box(470, 324, 150, 60, "color", "color", "lamps, dyes, pictures")
+    d.box(470, 244, 150, 60, "lab", "lab/weave", "drafts, yarns, filaments")
+    d.box(634, 244, 124, 60, "lab", "lab/goniometer", "photons to a table")
+    d.box(770, 244, 100, 60, "lab", "lab/measure", "to a table")
+    d.box(884, 244, 96, 60, "lab", "lab/session", "by a plan")
     d.box(860, 324, 120, 60, "lab", "lab/rig", "lamp, shutter")
     d.box(20, 404, 960, 60, "values", "sdk/values",
           "errors, files, spectra, pictures, surfaces, cameras, reflectance tables")
@@ -132,17 +131,19 @@ def layers():
     d.arrow((120, 224), (120, 244))
     d.arrow((120, 304), (120, 324))
     d.arrow((350, 224), (350, 324))
-    d.arrow((570, 224), (570, 244))
-    d.arrow((570, 304), (570, 324))
-    d.arrow((740, 224), (740, 244))
-    d.arrow((680, 274), (660, 274))
-    d.arrow((730, 304), (730, 344), (660, 344))
-    d.arrow((855, 224), (855, 244))
-    d.arrow((845, 304), (845, 364), (660, 364))
-    d.arrow((895, 274), (905, 274))
-    d.arrow((942, 304), (942, 324))
-    d.arrow((790, 304), (790, 404))
-    for x in (120, 350, 570, 915):
+    d.arrow((545, 224), (545, 244))
+    d.arrow((545, 304), (545, 324))
+    d.arrow((696, 224), (696, 244))
+    d.arrow((634, 274), (620, 274))
+    d.arrow((680, 304), (680, 344), (620, 344))
+    d.arrow((820, 224), (820, 244))
+    d.arrow((800, 304), (800, 364), (620, 364))
+    d.arrow((870, 274), (884, 274))
+    d.arrow((932, 224), (932, 244))
+    d.arrow((932, 304), (932, 324))
+    d.arrow((730, 304), (730, 404))
+    d.arrow((840, 304), (840, 404))
+    for x in (120, 350, 545, 915):
         d.arrow((x, 384), (x, 404))
     d.write("layers.svg")
 
