@@ -32,6 +32,12 @@ for bad in parameter type function; do
         exit 1
     fi
 done
+for headers in */include */*/include; do
+    if [ "$(grep -cE "(^| )$headers( |$)" sdk/docs/Doxyfile)" != 2 ]; then
+        echo "sdk/docs/Doxyfile: $headers is to stand in INPUT and in STRIP_FROM_INC_PATH"
+        exit 1
+    fi
+done
 for sources in "INPUT = $scratch/good.h" ""; do
     if [ -n "$(findings "$sources" | tee /dev/stderr)" ]; then
         exit 1

@@ -33,6 +33,7 @@ class LampDrift {
 
     /// Nothing for a lighting without a reading.
     std::optional<LampLight> at(double time_s, int strike) const;
+    /// By strike and time.
     const std::vector<WhiteReading> &readings() const { return readings_; }
 
   private:

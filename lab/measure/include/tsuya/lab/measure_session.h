@@ -24,6 +24,7 @@ struct Corrections {
     bool drift = true; ///< of the lamp, between white frames; else the first white frame is taken
 };
 
+/// How the pictures of a session are measured.
 struct MeasureSettings {
     /// One repeat of the weave along weft and warp, mm; with the rig's `pixel_mm` the patch is cut
     /// to whole repeats. Nothing: all pixels of the patch alike.
@@ -85,6 +86,7 @@ struct ChannelMeasurement {
     double flicker = 0; ///< relative, of single frames; 0 where it cannot be told
 };
 
+/// What the pictures of a session give: a table for each channel of the camera.
 struct SessionMeasurement {
     std::vector<ChannelMeasurement> channels{}; ///< one or more, all with the same views
     std::vector<LeftOutView> left_out{};        ///< by view; each view once

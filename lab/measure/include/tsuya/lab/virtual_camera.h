@@ -45,6 +45,7 @@ enum class CameraFault {
     wrong_exposure, ///< half of what was asked for
 };
 
+/// The sensor of a virtual camera, and its faults.
 struct VirtualCameraSettings {
     int width = 64, height = 64; ///< pixels
     double dark_e_per_s = 2;     ///< dark current, electrons a second

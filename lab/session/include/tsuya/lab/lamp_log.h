@@ -46,6 +46,7 @@ class LampLog {
     LampLog(const std::filesystem::path &file, std::string serial, Moments moments,
             int strikes = 0);
 
+    /// As the file and the changes since tell.
     const LampState &state() const { return state_; }
     /// Notes that the lamp is lit. \return its state after that
     const LampState &light();

@@ -49,6 +49,7 @@ struct PlanEstimate {
     double disk_mb = 0;
 };
 
+/// Adds up the plan's frames, movements and waits, with the times that the rig file states.
 PlanEstimate estimate(const Plan &plan, const RigFile &rig);
 
 } // namespace tsuya::lab

@@ -18,6 +18,7 @@ class SessionFault : public Error {
   public:
     /// \param safety the interlock or the emergency stop, which is to be acknowledged
     SessionFault(Problem problem, bool safety) : Error(std::move(problem)), safety_(safety) {}
+    /// Whether it is the interlock or the emergency stop.
     bool safety() const noexcept { return safety_; }
 
   private:

@@ -24,6 +24,7 @@ struct SessionHardware {
     Moments moments{};
 };
 
+/// How a session is run.
 struct SessionSettings {
     std::filesystem::path lamp_log{};  ///< empty: none is kept
     std::filesystem::path fault_log{}; ///< of latched faults; empty: none is kept
@@ -34,6 +35,7 @@ struct SessionSettings {
 /// How far a session is.
 struct SessionResult {
     std::size_t planned = 0, counted = 0;
+    /// Planned frames that do not count yet.
     std::size_t missing() const { return planned - counted; }
 };
 
