@@ -1,7 +1,6 @@
 // tsuya lab run: takes the frames of a plan.
 
 #include "lab_session.h"
-#include "tsuya/lab/plan.h"
 
 namespace tsuya::program {
 namespace {
@@ -20,10 +19,7 @@ struct LabRun final : Command {
                 "again.");
     }
 
-    Status run(Console &console) override {
-        lab::create_session(folder, plan, lab::read_plan(plan).rig);
-        return session.run(folder, console);
-    }
+    Status run(Console &console) override { return session.run(folder, console, plan); }
 };
 
 } // namespace

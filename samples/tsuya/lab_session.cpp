@@ -69,8 +69,8 @@ void SessionOptions::options(Options &o) {
 }
 
 /// The lines are let go before anything waits for a terminal that does not take the progress.
-lab::SessionResult SessionOptions::result(const std::filesystem::path &folder,
-                                          Console &console) const {
+lab::SessionResult SessionOptions::result(const std::filesystem::path &folder, Console &console,
+                                          const std::filesystem::path &plan) const {
     lab::SessionJob job{.folder = folder,
                         .read = lab::read_frame_facts,
                         .wait = wait_,
@@ -79,18 +79,22 @@ lab::SessionResult SessionOptions::result(const std::filesystem::path &folder,
                         .ask = ask,
                         .answered = enter_was_pressed};
     if (dry_run_)
-        job.simulated_camera = [&](const lab::RigFile &rig, lab::Clock &clock) {
-            return std::make_unique<lab::VirtualCamera>(
-                lab::VirtualScene{.cloth = reflectance_of(fabric_)}, rig.camera,
-                lab::VirtualCameraSettings{}, &clock);
+        job.simulated_camera = [cloth = reflectance_of(fabric_)](const lab::RigFile &rig,
+                                                                 lab::Clock &clock) {
+            return std::make_unique<lab::VirtualCamera>(lab::VirtualScene{.cloth = cloth},
+                                                        rig.camera, lab::VirtualCameraSettings{},
+                                                        &clock);
         };
+    if (!plan.empty()) // after the fabric: a wrong one leaves no folder
+        lab::create_session(folder, plan, lab::read_plan(plan).rig);
     lab::ProgressRelay relay(console.progress());
     const SignalShield shield;
     return lab::run_session_job(job, relay.progress());
 }
 
-Status SessionOptions::run(const std::filesystem::path &folder, Console &console) const {
-    const lab::SessionResult done = result(folder, console);
+Status SessionOptions::run(const std::filesystem::path &folder, Console &console,
+                           const std::filesystem::path &plan) const {
+    const lab::SessionResult done = result(folder, console, plan);
     if (json_)
         std::cout << Json{{"schema", "tsuya-lab-run 1"},
                           {"planned", done.planned},

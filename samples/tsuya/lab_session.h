@@ -11,12 +11,15 @@ namespace tsuya::program {
 class SessionOptions {
   public:
     void options(Options &o);
-    /// Runs the session in the folder and prints how far it is. \return kDone, or kCheckFailed
-    /// where frames were rejected and are missing
-    Status run(const std::filesystem::path &folder, Console &console) const;
+    /// Runs the session in the folder and prints how far it is.
+    /// \param plan of a new session, whose folder is made; empty: the session is there
+    /// \return kDone, or kCheckFailed where frames were rejected and are missing
+    Status run(const std::filesystem::path &folder, Console &console,
+               const std::filesystem::path &plan = {}) const;
 
   private:
-    lab::SessionResult result(const std::filesystem::path &folder, Console &console) const;
+    lab::SessionResult result(const std::filesystem::path &folder, Console &console,
+                              const std::filesystem::path &plan) const;
 
     bool dry_run_ = false, wait_ = false, json_ = false;
     int tries_ = 3;

@@ -39,6 +39,12 @@ TEST(ViewsNamed, AreThoseOfThePaperAndFew) {
     EXPECT_EQ(views_named("paper", {}).pairs.size(), 33424u);
     for (const char *wrong : {"few:", "few:0", "few:91", "few:5x", "few:nan", "absent.csv"})
         EXPECT_THROW(views_named(wrong, {}), Error) << wrong;
+    try {
+        views_named("fwe:5", {});
+        FAIL() << "no error";
+    } catch (const Error &error) {
+        EXPECT_TRUE(error.problems()[0].accepted.starts_with("expected few:STEP"));
+    }
     const scene::Scratch folder;
     write_reflectance_table({.symmetry = Symmetry::none, .rows = {{.theta_r = 0.5}}},
                             folder / "t.csv");

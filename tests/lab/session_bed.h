@@ -8,6 +8,8 @@
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
+#include <gtest/gtest.h>
+
 #include <functional>
 #include <sstream>
 
@@ -186,6 +188,35 @@ class SessionBed {
     scene::Scratch scratch;
     RigFile rig{};
     Plan plan{};
+};
+
+/// A session that is made, and what its runs leave.
+class SessionRunTest : public testing::Test {
+  protected:
+    SessionRunTest() { bed.create(); }
+
+    std::vector<EventKind> kinds() const {
+        std::vector<EventKind> kinds;
+        for (const JournalEvent &event : read_journal(bed.folder() / "journal.jsonl").events)
+            kinds.push_back(event.kind);
+        return kinds;
+    }
+    Session session() const { return read_session(bed.folder()); }
+    /// What the run throws.
+    template <class E> Problem problem_of(BedRun &run, const SessionSettings &settings = {}) {
+        try {
+            run.run(bed.folder(), bed.rig, settings);
+        } catch (const E &error) {
+            run.expect_off();
+            return error.problems().front();
+        }
+        return {.what = "no such error"};
+    }
+    SessionSettings with_logs() const {
+        return {.lamp_log = bed.scratch / "lamp.log", .fault_log = bed.scratch / "faults.jsonl"};
+    }
+
+    SessionBed bed;
 };
 
 /// The pictures that count, by number: what a table is made of.

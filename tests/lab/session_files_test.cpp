@@ -88,6 +88,13 @@ TEST(PlanFile, IsRefusedWithPlaceAndReason) {
         EXPECT_TRUE(problem.what.starts_with(c.expected)) << problem.what << ", " << c.expected;
         EXPECT_EQ(problem.where, (folder / "a.jsonl").string() + ":" + std::to_string(c.line));
     }
+    write_file(folder / "a.jsonl", "schema = \"tsuya-rig 1\"\n[lamp]\n[camera]\n");
+    try {
+        read_plan(folder / "a.jsonl");
+        FAIL() << "no error";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems().size(), 1u) << "a file that is no plan is one problem";
+    }
     write_file(folder / "a.jsonl", text.substr(0, text.size() - 3));
     EXPECT_EQ(problem_of([&] { read_plan(folder / "a.jsonl"); }).what, "the last line is cut off");
     write_file(folder / "a.jsonl", text.substr(0, text.find('\n') + 1));

@@ -12,7 +12,7 @@ namespace {
 constexpr const char *kShellCamera = "n=$(basename {file}); echo picture {exposure} 200 $n end > "
                                      "{file}";
 
-/// The small rig with times of a second or less, whose axes and samples are commands.
+/// The small rig with times of a second or less, whose axes are commands.
 std::string quick_rig() {
     std::string text = kSmallRig;
     const auto set = [&](const std::string &from, const std::string &to) {
@@ -26,9 +26,22 @@ std::string quick_rig() {
     set("exposures_s = [0.1, 1]", "exposures_s = [0.1]");
     set("[\"camera\", \"{file}\", \"{exposure}\"]",
         std::string("[\"/bin/sh\", \"-c\", \"") + kShellCamera + "\"]");
-    set("[white]",
-        "[sample]\ndrive = \"command\"\ncommand = [\"/bin/true\", \"{sample}\"]\n[white]");
     return text;
+}
+
+constexpr const char *kSampleCommand = "[sample]\ndrive = \"command\"\n"
+                                       "command = [\"/bin/true\", \"{sample}\"]\n";
+
+/// A session of the quick rig, with more sections.
+void create_quick(SessionBed &bed, const std::string &sections = "", double hold_s = 600) {
+    std::string text = quick_rig();
+    text.replace(text.find("hold_s = 600"), 12, "hold_s = " + std::to_string(hold_s));
+    write_file(bed.rig_file(), text + sections);
+    bed.rig = read_rig_file(bed.rig_file());
+    write_plan(make_plan(bed.rig, {.directions = views_named("few:45", Symmetry::orthotropic),
+                                   .rig = bed.rig_file()}),
+               bed.plan_file());
+    bed.create();
 }
 
 SessionJob dry_job(const SessionBed &bed) {
@@ -50,6 +63,8 @@ TEST(SessionJobs, ADryRunTakesNoTimeAndGivesTheSameAgain) {
     for (std::size_t i = 0; i < first.frames.size(); ++i)
         EXPECT_EQ(first.frames[i].time_s, second.frames[i].time_s);
     EXPECT_FALSE(std::filesystem::exists(fault_log_of(a.rig_file())));
+    EXPECT_TRUE(first.dry_run);
+    EXPECT_FALSE(SessionBed().finished().dry_run);
 }
 
 TEST(SessionJobs, DryAndRealPicturesDoNotMix) {
@@ -93,12 +108,7 @@ TEST(SessionJobs, StatusTellsHowFarASessionIs) {
 // are a minute apart, so the plan is stopped before: what is tested is the way to the camera.
 TEST(SessionJobs, RunProgramsInASupervisedProcess) {
     SessionBed bed;
-    write_file(bed.rig_file(), quick_rig());
-    bed.rig = read_rig_file(bed.rig_file());
-    Plan plan = make_plan(bed.rig, {.directions = views_named("few:45", Symmetry::orthotropic),
-                                    .rig = bed.rig_file()});
-    write_plan(plan, bed.plan_file());
-    bed.create();
+    create_quick(bed, kSampleCommand);
     std::atomic<bool> stop{false};
     const Progress progress{
         .report = [&](std::string_view stage,
@@ -115,14 +125,7 @@ TEST(SessionJobs, RunProgramsInASupervisedProcess) {
 // Where nobody can be asked, the session ends before the lamp has burned for nothing.
 TEST(SessionJobs, NeedAnOperatorWhereTheRigDoes) {
     SessionBed bed;
-    std::string text = quick_rig();
-    text.erase(text.find("[sample]"), text.find("[white]") - text.find("[sample]"));
-    write_file(bed.rig_file(), text);
-    write_plan(make_plan(read_rig_file(bed.rig_file()),
-                         {.directions = views_named("few:45", Symmetry::orthotropic),
-                          .rig = bed.rig_file()}),
-               bed.plan_file());
-    bed.create();
+    create_quick(bed);
     try {
         run_session_job({.folder = bed.folder(), .read = read_picture});
         FAIL() << "no error";
@@ -143,6 +146,22 @@ TEST(SessionJobs, NeedAnOperatorWhereTheRigDoes) {
                       .stop = &stop}),
                  Interrupted);
     EXPECT_EQ(asked, std::vector<std::string>{"put the white standard under the camera"});
+}
+
+// The lamp does not burn for an operator who has gone home.
+TEST(SessionJobs, EndWhereTheOperatorDoesNotAnswer) {
+    SessionBed bed;
+    create_quick(bed, "", 0.3);
+    try {
+        run_session_job({.folder = bed.folder(),
+                         .read = read_picture,
+                         .ask = [](const std::string &) {},
+                         .answered = [] { return false; }});
+        FAIL() << "no error";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems()[0].what, "nobody has answered for the lamp's hold_s");
+    }
+    EXPECT_FALSE(session_status(bed.folder()).lamp_lit);
 }
 
 } // namespace

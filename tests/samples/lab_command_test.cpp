@@ -103,6 +103,9 @@ TEST(LabCommands, ASessionWithoutARigFromPlanToPictures) {
     const std::string plan = (scratch / "a.plan.jsonl").string();
     const std::string session = (scratch / "session").string();
     ASSERT_EQ(run({"plan", TSUYA_RIG_SAMPLE, "--views", "few:45", "-o", plan}).status, 0);
+    const std::string none = (scratch / "none.fabric.toml").string();
+    EXPECT_EQ(run({"run", plan, "-o", session, "--dry-run", "--fabric", none}).status, 1);
+    EXPECT_FALSE(std::filesystem::exists(session)) << "in the way of the next call";
     const Outcome done = run({"run", plan, "-o", session, "--dry-run", "--json"});
     ASSERT_EQ(done.status, 0) << done.err;
     EXPECT_EQ(json::parse(done.out).at("missing"), 0);
@@ -119,6 +122,7 @@ TEST(LabCommands, ASessionWithoutARigFromPlanToPictures) {
     const Outcome measure = run({"measure", session, "-o", table, "--report", measured});
     ASSERT_EQ(measure.status, 0) << measure.err;
     const ReflectanceTable grey = read_reflectance_table(table);
+    EXPECT_EQ(grey.keys.at("instrument"), "dry run of a camera goniometer");
     EXPECT_EQ(grey.rows.size(), 4u) << "45 degrees, at 4 azimuths";
     for (const ReflectanceRow &row : grey.rows)
         EXPECT_NEAR(row.brdf_per_sr, 0.02, 3 * row.sigma_per_sr);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <set>
 
 #include "channel_estimate.h"
 #include "tsuya/lab/view_geometry.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "utc_text.h"
 
 namespace tsuya::lab {
 namespace {
@@ -102,22 +102,13 @@ double difference_of(const std::vector<ChannelMeasurement> &channels) {
     return largest;
 }
 
-std::string date_of(double time_s) {
-    const auto seconds = static_cast<std::time_t>(time_s);
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return text;
-}
-
 std::map<std::string, std::string> keys_of(const Session &session,
                                            const ChannelMeasurement &channel) {
     const RigCamera &camera = session.rig.camera;
     const CountedFrame &first = session.frames.front();
     std::map<std::string, std::string> keys{
         {"instrument", "camera goniometer"},
-        {"date", date_of(first.time_s)},
+        {"date", utc_text(first.time_s, "%Y-%m-%dT%H:%M:%SZ")},
         {"camera", camera.command.empty() ? "shutter line" : camera.command.front()},
         {"channel", channel.name},
         {"lamp", "serial " +
@@ -129,6 +120,11 @@ std::map<std::string, std::string> keys_of(const Session &session,
              : std::get<std::filesystem::path>(session.rig.white.rho_std).filename().string()},
         {"provenance", "plan " + session.plan_hash + ", rig " + session.rig_hash + ", journal " +
                            session.journal_hash}};
+    if (session.dry_run) { // nobody shall take it for a measurement
+        keys["instrument"] = "dry run of a camera goniometer";
+        keys["camera"] = "virtual camera";
+        keys["lamp"] = "none";
+    }
     if (session.rig.white.height_mm != 0)
         keys["white_height_mm"] = std::to_string(session.rig.white.height_mm);
     return keys;

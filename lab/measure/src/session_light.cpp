@@ -186,10 +186,13 @@ class SessionLightReader {
             side, lattice_in_picture(*settings_.repeat_mm, pixel_mm, planned.directions));
     }
 
-    /// White frames beside the plan, each a view of its own.
+    /// White frames beside the plan, each a view of its own. That some are clipped is no warning:
+    /// so a run finds the longest exposure that the standard allows.
     void read_warm_up() {
+        const int clipped = light_.clipped_white;
         for (const CountedFrame &frame : session_.warm_up)
             read_view({&frame});
+        light_.clipped_white = clipped;
     }
 
     const Session &session_;

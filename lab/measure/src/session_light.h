@@ -12,8 +12,8 @@ struct SessionLight {
     std::vector<std::string> colours{};
     std::vector<ViewLight> cloth{}, white{}, trap{};
     std::vector<LeftOutView> left_out{};
-    int clipped_white =
-        0; ///< views of the white standard that every exposure clips: not in `white`
+    /// Planned views of the white standard that every exposure clips: not in `white`.
+    int clipped_white = 0;
 };
 
 /// Reads every counted frame's patches. Throws Error where there is no cloth or no white, frames of

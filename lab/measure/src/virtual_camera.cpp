@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <random>
 
 #include "tsuya/color/camera_frame.h"
@@ -10,6 +9,7 @@
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/detail/hasher.h"
 #include "tsuya/sdk/error.h"
+#include "utc_text.h"
 
 namespace tsuya::lab {
 namespace {
@@ -33,14 +33,7 @@ std::uint64_t number_of(const Shot &shot) {
 }
 
 /// As cameras write it, in UTC. Without it two pictures of a clipped white would be copies.
-std::string time_text(double time_s) {
-    const auto seconds = static_cast<std::time_t>(time_s);
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc);
-    return text;
-}
+std::string time_text(double time_s) { return utc_text(time_s, "%Y:%m:%d %H:%M:%S"); }
 
 /// The texture of a cloth: light of each pixel over the mean.
 class Texture {

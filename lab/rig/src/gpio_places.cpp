@@ -74,8 +74,9 @@ std::string chip_path(const std::string &chip) {
              .accepted = "a chip's name, such as " + name_of(names.with_label[0])});
     throw Error({.what = "there is no such GPIO chip",
                  .where = chip,
-                 .accepted = names.known.empty() ? "a computer with GPIO; this one has no chip"
-                                                 : accepted_names(chip, names.known)});
+                 .accepted = names.known.empty()
+                                 ? "expected a computer with GPIO; this one has no chip"
+                                 : accepted_names(chip, names.known)});
 }
 
 /// The places on one chip where the line could be: by name, or else by offset.
@@ -111,7 +112,7 @@ std::vector<std::string> chips_for(const GpioLineSettings &settings) {
     if (chips.empty())
         throw Error({.what = "this computer has no GPIO chip",
                      .where = settings.line,
-                     .accepted = "a computer with GPIO, or the simulated line"});
+                     .accepted = "expected a computer with GPIO, or the simulated line"});
     return chips;
 }
 

@@ -100,6 +100,8 @@ Plan read_plan(const std::filesystem::path &file) {
                 take_line({lines.whole[i], where}, plan);
         } catch (const Error &error) {
             problems.add(error);
+            if (i == 0)
+                break; // no plan: each of its lines would be a problem
         }
     }
     problems.need(lines.rest.empty(), "the last line is cut off", file.string(),

@@ -124,6 +124,10 @@ Directions views_named(const std::string &name, std::optional<Symmetry> symmetry
         return directions;
     }
     if (!name.starts_with("few:")) {
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(name, ignored))
+            throw Error({"'" + name + "' is no set of views, and no file", "views",
+                         "expected few:STEP such as few:5, paper, or a table of reflectance"});
         Directions directions = directions_of(read_reflectance_table(name));
         directions.symmetry = symmetry.value_or(directions.symmetry);
         return directions;

@@ -19,6 +19,8 @@ class SessionReader {
         if (event.frame && *event.frame >= session_.plan.frames.size())
             throw Error({"the plan has no frame " + std::to_string(*event.frame), where,
                          "expected one below " + std::to_string(session_.plan.frames.size())});
+        if (event.kind == EventKind::session)
+            session_.dry_run = event.text("boot") == kDryRunBoot;
         if (event.kind == EventKind::ok)
             count(event, where);
         if (event.kind == EventKind::reject)

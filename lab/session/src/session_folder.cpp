@@ -1,3 +1,4 @@
+#include "json_line.h"
 #include "tsuya/lab/session_run.h"
 #include "tsuya/sdk/file.h"
 
@@ -7,6 +8,14 @@ namespace tsuya::lab {
 namespace {
 
 namespace fs = std::filesystem;
+
+void make_folder(const fs::path &folder) {
+    std::error_code code;
+    fs::create_directories(folder, code);
+    if (code)
+        throw Error({"the folder cannot be made: " + code.message(), folder.string(),
+                     accepted_for_writing(code.value())});
+}
 
 /// Copies a file that the rig file names, to the same place beside the copy of the rig file.
 void copy_named(const fs::path &named, const fs::path &rig_folder, const fs::path &folder,
@@ -18,7 +27,7 @@ void copy_named(const fs::path &named, const fs::path &rig_folder, const fs::pat
                        "the rig file names a file outside of its folder", named.string(),
                        "expected it beside the rig file or below"))
         return;
-    fs::create_directories((folder / beside).parent_path());
+    make_folder((folder / beside).parent_path());
     write_file(folder / beside, read_file(named));
 }
 
@@ -32,23 +41,32 @@ void check_is_new(const fs::path &folder) {
                          : "expected a new one"});
 }
 
+/// Folders for the pictures, and the rig file with what it names.
+void fill(const fs::path &folder, const RigFile &rig, const fs::path &rig_file) {
+    Problems problems;
+    make_folder(folder / "frames");
+    make_folder(folder / "rejected");
+    const fs::path rig_folder = rig_file.parent_path();
+    if (const auto *standard = std::get_if<fs::path>(&rig.white.rho_std))
+        copy_named(*standard, rig_folder, folder, problems);
+    copy_named(rig.camera.response, rig_folder, folder, problems);
+    problems.throw_if_any();
+    write_file(folder / "rig.toml", read_file(rig_file));
+}
+
+/// The line, also where the file does not end with a line break.
+std::string line_at(const TextLines &lines, std::size_t i) {
+    if (i < lines.whole.size())
+        return std::string(lines.whole[i]);
+    return i > lines.whole.size() || lines.rest.empty() ? "(no line)" : std::string(lines.rest);
+}
+
 /// The lines that differ, as problems.
 void add_differences(const fs::path &was, const fs::path &is, Problems &problems) {
-    const auto lines = [](const fs::path &file) {
-        std::vector<std::string> split;
-        const std::string text = read_file(file);
-        for (std::size_t at = 0; at < text.size();) {
-            const std::size_t end = std::min(text.find('\n', at), text.size());
-            split.push_back(text.substr(at, end - at));
-            at = end + 1;
-        }
-        return split;
-    };
-    const std::vector<std::string> old_lines = lines(was), new_lines = lines(is);
-    const std::string none = "(no line)";
-    for (std::size_t i = 0; i < std::max(old_lines.size(), new_lines.size()); ++i) {
-        const std::string &before = i < old_lines.size() ? old_lines[i] : none;
-        const std::string &now = i < new_lines.size() ? new_lines[i] : none;
+    const std::string old_text = read_file(was), new_text = read_file(is);
+    const TextLines old_lines = lines_of(old_text), new_lines = lines_of(new_text);
+    for (std::size_t i = 0; i <= std::max(old_lines.whole.size(), new_lines.whole.size()); ++i) {
+        const std::string before = line_at(old_lines, i), now = line_at(new_lines, i);
         problems.need(before == now, "is now '" + now + "'",
                       is.string() + ":" + std::to_string(i + 1),
                       "expected '" + before + "' as when the session began");
@@ -64,27 +82,23 @@ void create_session(const fs::path &folder, const fs::path &plan_file, const fs:
     if (!plan.rig_hash.empty() && plan.rig_hash != file_hash(rig_file))
         throw Error({"the rig file is not the one that the plan was made for", rig_file.string(),
                      "expected a new plan"});
-    Problems problems;
-    fs::create_directories(folder / "frames");
-    fs::create_directories(folder / "rejected");
-    const fs::path rig_folder = rig_file.parent_path();
-    if (const auto *standard = std::get_if<fs::path>(&rig.white.rho_std))
-        copy_named(*standard, rig_folder, folder, problems);
-    copy_named(rig.camera.response, rig_folder, folder, problems);
-    if (!problems.empty())
-        fs::remove_all(folder);
-    problems.throw_if_any();
-    write_file(folder / "rig.toml", read_file(rig_file));
-    write_file(folder / "plan.jsonl", read_file(plan_file));
-    sync_folder(folder);
+    try {
+        fill(folder, rig, rig_file);
+        write_file(folder / "plan.jsonl", read_file(plan_file));
+        write_file(folder / "journal.jsonl", ""); // nothing has happened yet
+        sync_folder(folder);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(folder, ignored); // it was not there, or empty
+        throw;
+    }
 }
 
 void check_same_rig_and_plan(const fs::path &folder, const fs::path &rig) {
     Problems problems;
     add_differences(folder / "rig.toml", rig, problems);
     const fs::path plan = folder / "plan.jsonl";
-    const fs::path journal = folder / "journal.jsonl";
-    const Journal begun = fs::exists(journal) ? read_journal(journal) : Journal{};
+    const Journal begun = read_journal(folder / "journal.jsonl");
     for (const JournalEvent &event : begun.events)
         if (event.kind == EventKind::session &&
             !problems.need(event.text("plan") == file_hash(plan),

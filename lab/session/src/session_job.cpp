@@ -20,7 +20,6 @@ constexpr std::chrono::milliseconds kSilence{5000};
 constexpr std::chrono::milliseconds kAskAgain{100}; // whether the operator is ready
 constexpr double kDryRunEpoch_s = 1.7e9; // of the virtual clock: equal runs have equal times
 constexpr double kBetweenDryRuns_s = 86400;
-constexpr const char *kDryRun = "dry run"; // stands for the start of a computer that is not there
 constexpr char kAsk = 'a', kReady = '?';
 
 /// The lines of a rig file, taken; a null pointer for a role that it does not have.
@@ -77,14 +76,19 @@ class OperatorPipe {
         [[maybe_unused]] const ssize_t told = write(ends_[1], &yes, 1);
     }
     /// In the work.
-    void ask(const std::string &what, Worker &worker, Clock &clock,
+    void ask(const std::string &what, Worker &worker, Clock &clock, Seconds hold,
              const std::atomic<bool> *stop) const {
         if (!job_.ask || !job_.answered)
             throw SessionFault({"nobody can be asked to " + what, "operator",
                                 "expected a program that asks, or drives that need nobody"},
                                false);
         worker.send(kAsk + what.substr(0, Worker::kMaxMessage - 1));
+        const auto deadline = clock.now() + std::chrono::round<std::chrono::nanoseconds>(hold);
         for (char yes = 0; read(ends_[0], &yes, 1) != 1;) {
+            if (clock.now() >= deadline) // the lamp burns meanwhile
+                throw SessionFault({"nobody has answered for the lamp's hold_s", "operator",
+                                    "expected someone to " + what + ", then resume"},
+                                   false);
             worker.send(std::string(1, kReady));
             if (!clock.sleep_until(clock.now() + kAskAgain, stop))
                 throw Interrupted("stopped while the operator was asked");
@@ -123,7 +127,10 @@ SessionResult run_for_real(const SessionJob &job, const std::filesystem::path &r
                              .on_group = [&](int group) { worker.command_group(group); }};
         RigMechanics mechanics(
             rig, clock,
-            [&](const std::string &what) { people.ask(what, worker, clock, inner.stop); }, how);
+            [&](const std::string &what) {
+                people.ask(what, worker, clock, rig.lamp.hold, inner.stop);
+            },
+            how);
         const auto camera = camera_of(rig, clock, how);
         run_session(job.folder, rig,
                     {.lamp = lamp,
@@ -148,10 +155,8 @@ SessionResult run_for_real(const SessionJob &job, const std::filesystem::path &r
 
 /// Pictures of a rig and of a dry run do not stand in one session.
 void check_is_the_same_kind(const std::filesystem::path &journal, bool dry) {
-    if (!std::filesystem::exists(journal))
-        return;
     for (const JournalEvent &event : read_journal(journal).events)
-        if (event.kind == EventKind::session && (event.text("boot") == kDryRun) != dry)
+        if (event.kind == EventKind::session && (event.text("boot") == kDryRunBoot) != dry)
             throw Error(
                 {dry ? "the session was begun on a rig" : "the session was begun as a dry run",
                  journal.string(), dry ? "expected no dry run" : "expected a dry run"});
@@ -160,9 +165,8 @@ void check_is_the_same_kind(const std::filesystem::path &journal, bool dry) {
 /// The next of several dry runs of a session comes a day later.
 double epoch_of(const std::filesystem::path &journal) {
     double last_s = 0;
-    if (std::filesystem::exists(journal))
-        for (const JournalEvent &event : read_journal(journal).events)
-            last_s = event.time_s;
+    for (const JournalEvent &event : read_journal(journal).events)
+        last_s = event.time_s;
     return last_s > 0 ? last_s + kBetweenDryRuns_s : kDryRunEpoch_s;
 }
 
@@ -178,7 +182,7 @@ SessionResult run_dry(const SessionJob &job, const Progress &progress) {
     const auto camera = job.simulated_camera(rig, clock);
     const auto moment = [&] {
         const double s = Seconds(time.now()).count();
-        return Moment{.boot = kDryRun, .boottime_s = s, .time_s = epoch_s + s};
+        return Moment{.boot = kDryRunBoot, .boottime_s = s, .time_s = epoch_s + s};
     };
     return run_session(job.folder, rig,
                        {.lamp = &lamp,

@@ -39,10 +39,10 @@ class SessionRun {
         } catch (...) {
             failure = std::current_exception();
         }
-        std::vector<Problem> still_on = off.drive_off(); // before anything else
-        end(failure, still_on);
-        if (!still_on.empty())
-            throw Error(std::move(still_on));
+        std::vector<Problem> problems = off.drive_off(); // before anything else
+        end(failure, problems);
+        if (!problems.empty())
+            throw Error(std::move(problems));
         if (failure)
             std::rethrow_exception(failure);
         return {.planned = session_.plan.frames.size(), .counted = counted_};
@@ -58,8 +58,8 @@ class SessionRun {
     std::optional<double> take(const Shot &shot);
     bool attempt(std::optional<std::size_t> number, const std::function<void()> &step);
     void recover_from(std::optional<std::size_t> number, const Error &error, int tried);
-    void end(const std::exception_ptr &failure, std::vector<Problem> &still_on);
-    void end_by(const SessionFault &fault);
+    void end(const std::exception_ptr &failure, std::vector<Problem> &problems);
+    void end_by(const SessionFault &fault, std::vector<Problem> &problems);
     void leave(const std::string &how);
 
     const Session &session_;
@@ -210,30 +210,35 @@ void SessionRun::warm_up() {
         false);
 }
 
-/// Lamp and shutter are off, or may still be on: then the failure's problems follow.
-void SessionRun::end(const std::exception_ptr &failure, std::vector<Problem> &still_on) {
+/// Lamp and shutter are off, or may still be on as `problems` says: then the failure follows there.
+void SessionRun::end(const std::exception_ptr &failure, std::vector<Problem> &problems) {
     if (!failure)
         return leave("finished");
     try {
         std::rethrow_exception(failure);
     } catch (const SessionFault &fault) {
-        end_by(fault);
-        if (!still_on.empty())
-            still_on.push_back(fault.problems().front());
+        end_by(fault, problems);
+        if (!problems.empty())
+            problems.push_back(fault.problems().front());
     } catch (const Interrupted &) {
         leave("stopped");
     } catch (const std::exception &error) {
         leave("ended by an error");
-        if (!still_on.empty())
-            still_on.push_back({.what = error.what()});
+        if (!problems.empty())
+            problems.push_back({.what = error.what()});
     }
 }
 
-/// What can still be written is.
-void SessionRun::end_by(const SessionFault &fault) {
+/// What can still be written is; a fault that cannot be latched is a problem of its own.
+void SessionRun::end_by(const SessionFault &fault, std::vector<Problem> &problems) {
     const Problem &problem = fault.problems().front();
-    if (fault.safety() && !settings_.fault_log.empty())
-        latch_fault(settings_.fault_log, problem.where + ": " + problem.what, journal_.now_s());
+    try {
+        if (fault.safety() && !settings_.fault_log.empty())
+            latch_fault(settings_.fault_log, problem.where + ": " + problem.what, journal_.now_s());
+    } catch (const Error &error) {
+        problems.push_back({"the fault is not latched: " + error.problems().front().what,
+                            settings_.fault_log.string(), error.problems().front().accepted});
+    }
     try {
         journal_.note_lasting({.kind = EventKind::fault,
                                .texts = {{"why", problem.what}, {"where", problem.where}},

@@ -8,6 +8,9 @@
 
 namespace tsuya::lab {
 
+/// In a journal, what stands for the start of the computer in a dry run.
+inline constexpr const char *kDryRunBoot = "dry run";
+
 /// A picture that passed every check.
 struct CountedFrame {
     /// Its number in the plan; none for a white frame that was taken beside the plan to tell
@@ -39,6 +42,7 @@ struct Session {
     std::vector<RejectedFrame> rejected{}; ///< in order of time
     std::vector<std::size_t> missing{};    ///< numbers of frames that are not there yet
     std::string plan_hash{}, rig_hash{}, journal_hash{}; ///< of the files' bytes, 16 hex digits
+    bool dry_run = false; ///< the pictures are those of a simulated camera
 };
 
 /// Reads a session, also one that is not finished; changes nothing. Throws what read_plan,

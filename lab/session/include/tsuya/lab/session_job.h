@@ -21,8 +21,9 @@ struct SessionJob {
     int library_threads = 0;        ///< as of Supervision
     /// Told what the operator is to do; called in the calling process, must not block.
     std::function<void(const std::string &what)> ask{};
-    /// Asked again and again whether the operator has done it; must not block. With neither, axes
-    /// and samples that the operator moves are an error.
+    /// Asked again and again whether the operator has done it; must not block. A session ends where
+    /// the operator has not for the lamp's hold time. With neither, axes and samples that the
+    /// operator moves are an error.
     std::function<bool()> answered{};
     /// The same code on simulated lines and axes in virtual time, with this camera: no hardware, no
     /// log of a lamp or of faults, nothing to wait for.

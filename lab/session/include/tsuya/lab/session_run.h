@@ -39,9 +39,10 @@ struct SessionResult {
     std::size_t missing() const { return planned - counted; }
 };
 
-/// Makes the folder of a new session, with copies of the plan and of the rig file and of the files
-/// that this names. Throws Error naming what is wrong: a folder that is not empty, a rig file that
-/// is not the one of the plan, a file named by the rig that lies outside of its folder.
+/// Makes the folder of a new session, with an empty journal and copies of the plan and of the rig
+/// file and of the files that this names. Throws Error naming what is wrong: a folder that is not
+/// empty or cannot be made, a rig file that is not the one of the plan, a file named by the rig
+/// that lies outside of its folder. Nothing is left in the folder then.
 void create_session(const std::filesystem::path &folder, const std::filesystem::path &plan,
                     const std::filesystem::path &rig);
 
