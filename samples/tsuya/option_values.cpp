@@ -255,6 +255,11 @@ Option &Option::with_commas() {
     return *this;
 }
 
+Option &Option::with_words() {
+    has_words = true;
+    return *this;
+}
+
 Option &Option::exactly(std::size_t number) {
     count = number;
     return *this;

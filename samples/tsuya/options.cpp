@@ -35,7 +35,8 @@ void declare(CLI::App &app, Option &option, const std::string &name) {
     made->type_name(option.value);
     made->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     if (is_list(option))
-        made->expected(1, CLI::detail::expected_max_vector_size);
+        made->expected(1, CLI::detail::expected_max_vector_size)
+            ->allow_extra_args(option.has_words);
     if (option.has_commas)
         made->delimiter(',');
 }

@@ -49,6 +49,8 @@ struct Option {
     Option &one_of(std::vector<std::string> values);
     /// A list whose values may stand in one word, with commas between.
     Option &with_commas();
+    /// A list whose values are all words up to the next option, as a shell's `*` gives them.
+    Option &with_words();
     /// As many values, no more and no fewer.
     Option &exactly(std::size_t count);
     /// A file that the command writes: it must not be one that the call reads, nor another result.
@@ -61,7 +63,7 @@ struct Option {
     bool given = false;
     std::vector<std::string> words{};
 
-    bool is_required = false, has_commas = false, is_open = false;
+    bool is_required = false, has_commas = false, has_words = false, is_open = false;
     bool is_result = false, may_be_file = false;
     std::optional<double> least{}, most{};
     std::optional<std::size_t> count{};

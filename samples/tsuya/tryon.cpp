@@ -39,7 +39,8 @@ struct TryOn final : Command {
                                       "mesh with the UV of its panels (OBJ, glTF, PLY, OFF)");
         o.option("--frames", &job.frames, "MESH...",
                  "meshes with the garment's faces and other positions, each with pictures of its "
-                 "own; without --garment the first of them is the garment");
+                 "own; without --garment the first of them is the garment")
+            .with_words();
         o.flag("--morph-targets", &job.morph_targets,
                "take the garment's morph targets (glTF) as frames, too")
             .needs(mesh);

@@ -148,6 +148,26 @@ TEST(Program, TriesTheSampleDressOn) {
     EXPECT_GT(sheet.height, 2 * 50);
 }
 
+// As a shell gives them for `--frames cloth_*.obj`, or with the option said again.
+TEST(Program, TakesSeveralFramesAfterOneOption) {
+    const Scratch scratch;
+    const std::string first = scratch.write("cloth_0.obj", scene::cloth_obj()).string();
+    const std::string second = scratch.write("cloth_1.obj", scene::cloth_obj()).string();
+    for (const std::vector<std::string> &frames : std::vector<std::vector<std::string>>{
+             {"--frames", first, second}, {"--frames", first, "--frames", second}}) {
+        std::vector<std::string> call{"tryon"};
+        call.insert(call.end(), frames.begin(), frames.end());
+        for (const char *word : {"--dye", "white", "--lamps", "D65", "--spp", "1", "--width", "16",
+                                 "--height", "20", "-o"})
+            call.push_back(word);
+        call.push_back((scratch / std::to_string(frames.size())).string());
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_TRUE(fs::exists(fs::path(call.back()) / "white-D65-0001.png"));
+        EXPECT_FALSE(fs::exists(fs::path(call.back()) / "white-D65-0002.png"));
+    }
+}
+
 TEST(Program, LeavesNothingBehindWhereATryOnCannotBe) {
     const Scratch scratch;
     const std::string out = (scratch / "out").string();
