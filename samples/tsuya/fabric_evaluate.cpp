@@ -27,13 +27,15 @@ struct Result {
 
 struct FabricEvaluate final : Command {
     std::filesystem::path fabric_file{}, table_file{}, values_file{};
-    std::string model_name{}, part{};
+    std::string model_name{}, channel{}, part{};
     std::optional<double> reflectance{};
     bool json = false;
 
     void options(Options &o) override {
         o.argument(&fabric_file, "F.fabric.toml", "fabric").required();
         o.option("--against", &table_file, "TABLE.csv", "measured reflectance").required();
+        o.option("--channel", &channel, "NAME",
+                 "channel of TABLE.csv, such as r or 550nm, where it has several");
         o.option("--model", &model_name, "NAME",
                  "model, or all that the fabric has the data of; without it, the fabric's own");
         o.option(
@@ -51,8 +53,9 @@ struct FabricEvaluate final : Command {
         o.flag("--json", &json, "print the error measures as JSON");
         o.example("tsuya fabric evaluate black_satin.fabric.toml --against black_satin.csv "
                   "--model all");
-        o.notes("`tsuya list models` names the models. Without --reflectance the specular part is "
-                "compared, and not the fabric's own dye.");
+        o.notes(
+            "`tsuya list models` names the models. Without --reflectance the specular part is "
+            "compared, and not the fabric's own dye; `fabric fit` prints the R of each channel.");
     }
 
     Status run(Console &console) override {
@@ -65,7 +68,7 @@ struct FabricEvaluate final : Command {
             throw Error({"the coloured part is compared for no reflectance", "--part",
                          "expected --reflectance R"});
         const Fabric fabric = read_fabric(fabric_file, progress);
-        const ReflectanceTable table = read_single_table(table_file, console);
+        const ReflectanceTable table = read_channel(table_file, channel, console);
         const TableAccuracy against(table, progress);
         if (against.only_from_above())
             console.warning(table_file.string() +
@@ -136,6 +139,8 @@ struct FabricEvaluate final : Command {
                      {"table", table_file.string()},
                      {"only_light_from_above", only_from_above},
                      {"results", Json::array()}};
+        if (!channel.empty())
+            numbers["channel"] = channel;
         for (const Result &result : results) {
             Json directions = Json::array();
             for (const LightAccuracy &light : result.accuracy.directions) {

@@ -183,7 +183,7 @@ struct Render final : Command {
         for (const NamedLamp &lamp : file.output.lamps)
             act(picture_of(lamp), {});
         if (!stats.empty())
-            act(stats, {});
+            act(stats, {".json"});
     }
 
     /// A picture that cannot be written does not end the render.

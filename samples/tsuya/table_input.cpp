@@ -1,5 +1,8 @@
 #include "table_input.h"
 
+#include <algorithm>
+
+#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/table_warnings.h"
 
 namespace tsuya::program {
@@ -14,6 +17,26 @@ ReflectanceFile read_table(const std::filesystem::path &file, Console &console) 
             console.warning(file.string() + of + ": " + warning);
     }
     return read;
+}
+
+ReflectanceTable read_channel(const std::filesystem::path &file, const std::string &name,
+                              Console &console) {
+    ReflectanceFile read = read_table(file, console);
+    std::vector<std::string> names;
+    for (const TableChannel &channel : read.channels)
+        names.push_back(channel.name);
+    if (name.empty() && names.size() == 1)
+        return std::move(read.channels.front().table);
+    const auto found = std::ranges::find(names, name);
+    if (name.empty() || found == names.end())
+        throw Error(
+            {file.string() + " has " +
+                 (names.front().empty() ? "no channels"
+                                        : std::to_string(names.size()) + " channels") +
+                 (name.empty() ? "" : ", and none is '" + name + "'"),
+             "--channel",
+             names.front().empty() ? "expected no such option" : accepted_names(name, names)});
+    return std::move(read.channels[static_cast<std::size_t>(found - names.begin())].table);
 }
 
 ReflectanceTable read_single_table(const std::filesystem::path &file, Console &console) {

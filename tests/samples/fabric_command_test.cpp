@@ -9,10 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "limited_disk.h"
-#include "samples/process.h"
-#include "samples/scratch.h"
+#include "samples/fabric_run.h"
 #include "tsuya/color/image_file.h"
-#include "tsuya/scene/data_folder.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/reflectance_file.h"
@@ -23,13 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using scene::Scratch;
-
-Outcome run(const Scratch &scratch, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "fabric");
-    return run_program(arguments, scratch.folder());
-}
-
-fs::path satin() { return scene::data_folder() / "fabrics/black_satin.fabric.toml"; }
 
 /// A table of two lights, one with the ring at 60 degrees.
 std::string small_table(const Scratch &scratch) {
@@ -44,7 +35,7 @@ std::string small_table(const Scratch &scratch) {
 TEST(FabricEvaluate, ReportsEveryMeasureOfEveryModelAsJson) {
     const Scratch scratch;
     const std::string table = small_table(scratch);
-    const Outcome done = run(
+    const Outcome done = run_fabric(
         scratch, {"evaluate", satin().string(), "--against", table, "--model", "all", "--json"});
     ASSERT_EQ(done.status, 0) << done.err;
     EXPECT_EQ(done.err, "");
@@ -105,8 +96,9 @@ TEST(FabricEvaluate, ComparesDyedClothByItsParts) {
     const std::string table = (scratch / "even.csv").string();
     write_reflectance_table(even, table);
     const auto l2_cos = [&](const std::string &part) {
-        const Outcome done = run(scratch, {"evaluate", fabric, "--against", table, "--reflectance",
-                                           "0.4", "--part", part, "--json"});
+        const Outcome done =
+            run_fabric(scratch, {"evaluate", fabric, "--against", table, "--reflectance", "0.4",
+                                 "--part", part, "--json"});
         EXPECT_EQ(done.status, 0) << done.err;
         return json::parse(done.out)["results"][0]["mean"]["l2_cos"].get<double>();
     };
@@ -114,7 +106,7 @@ TEST(FabricEvaluate, ComparesDyedClothByItsParts) {
     EXPECT_GT(l2_cos("surface"), 0.3);
     EXPECT_GT(l2_cos("all"), 2 * l2_cos("body"));
     const Outcome refused =
-        run(scratch, {"evaluate", fabric, "--against", table, "--part", "body"});
+        run_fabric(scratch, {"evaluate", fabric, "--against", table, "--part", "body"});
     EXPECT_EQ(refused.status, 1);
     EXPECT_NE(refused.err.find("--reflectance"), std::string::npos) << refused.err;
 }
@@ -122,14 +114,14 @@ TEST(FabricEvaluate, ComparesDyedClothByItsParts) {
 TEST(FabricEvaluate, FindsTheSampleSatinNearItsOwnTable) {
     const Scratch scratch;
     const std::string table = (scene::data_folder() / "fabrics/black_satin.csv").string();
-    const Outcome text = run(scratch, {"evaluate", satin().string(), "--against", table});
+    const Outcome text = run_fabric(scratch, {"evaluate", satin().string(), "--against", table});
     ASSERT_EQ(text.status, 0) << text.err;
     EXPECT_EQ(text.out.rfind("yarn\n", 0), 0u); // the fabric names no model
     EXPECT_EQ(text.out.find("lambert"), std::string::npos);
     EXPECT_NE(text.out.find("noise_floor\n"), std::string::npos);
-    const json report = json::parse(
-        run(scratch, {"evaluate", satin().string(), "--against", table, "--model", "all", "--json"})
-            .out);
+    const json report = json::parse(run_fabric(scratch, {"evaluate", satin().string(), "--against",
+                                                         table, "--model", "all", "--json"})
+                                        .out);
     EXPECT_LT(report["results"][0]["mean"]["l2_cos"], 0.1);
     bool has_lambert = false;
     for (const json &result : report["results"])
@@ -144,8 +136,8 @@ TEST(FabricEvaluate, WritesValuesBesideTheTable) {
     const Scratch scratch;
     const std::string values = (scratch / "n/values.csv").string();
     const Outcome done =
-        run(scratch, {"evaluate", satin().string(), "--against", small_table(scratch), "--model",
-                      "lambert", "--values", values});
+        run_fabric(scratch, {"evaluate", satin().string(), "--against", small_table(scratch),
+                             "--model", "lambert", "--values", values});
     ASSERT_EQ(done.status, 0) << done.err;
     const std::string text = read_file(values);
     EXPECT_EQ(text.rfind("theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,brdf_per_sr,lambert\n", 0),
@@ -159,7 +151,7 @@ TEST(FabricEvaluate, RefusesWrongInput) {
     const std::string table = small_table(scratch);
     const auto status = [&](std::vector<std::string> call, const std::string &said) {
         call.insert(call.begin(), "evaluate");
-        const Outcome wrong = run(scratch, call);
+        const Outcome wrong = run_fabric(scratch, call);
         EXPECT_NE(wrong.err.find(said), std::string::npos) << wrong.err;
         EXPECT_EQ(wrong.out, "");
         return wrong.status;
@@ -185,7 +177,7 @@ TEST(FabricSimulate, MakesATableThatIsEqualForEqualCalls) {
     const std::string one = (scratch / "n/one.csv").string(), two = (scratch / "two.csv").string();
     std::vector<std::string> call = simulation(one, "30000");
     call.insert(call.end(), {"--threads", "1", "--json"});
-    const Outcome done = run(scratch, call);
+    const Outcome done = run_fabric(scratch, call);
     ASSERT_EQ(done.status, 0) << done.err;
     const json report = json::parse(done.out);
     EXPECT_EQ(report.at("schema"), "tsuya-fabric-simulate 1");
@@ -201,18 +193,18 @@ TEST(FabricSimulate, MakesATableThatIsEqualForEqualCalls) {
     EXPECT_NE(table.keys.at("provenance").find("seed 1"), std::string::npos);
     EXPECT_FALSE(fs::exists(one + ".checkpoint"));
 
-    ASSERT_EQ(run(scratch, simulation(two, "30000")).status, 0); // all threads
+    ASSERT_EQ(run_fabric(scratch, simulation(two, "30000")).status, 0); // all threads
     EXPECT_EQ(read_file(one), read_file(two));
     call = simulation(two, "30000");
     call.insert(call.end(), {"--seed", "2"});
-    ASSERT_EQ(run(scratch, call).status, 0);
+    ASSERT_EQ(run_fabric(scratch, call).status, 0);
     EXPECT_NE(read_file(one), read_file(two));
 
     // The table fits, and its own directions can be asked for again
     const std::string toml = (scratch / "taffeta.fabric.toml").string();
-    EXPECT_EQ(run(scratch, {"fit", one, "-o", toml}).status, 0);
-    EXPECT_EQ(run(scratch, {"simulate", "twill lining", "-o", two, "--photons", "10000",
-                            "--directions", one})
+    EXPECT_EQ(run_fabric(scratch, {"fit", one, "-o", toml}).status, 0);
+    EXPECT_EQ(run_fabric(scratch, {"simulate", "twill lining", "-o", two, "--photons", "10000",
+                                   "--directions", one})
                   .status,
               0);
     EXPECT_EQ(read_reflectance_table(two).rows.size(), table.rows.size());
@@ -235,14 +227,14 @@ TEST(FabricSimulate, ResumesBitIdentically) {
     {
         // A table that cannot be written takes nothing away
         const test::FileSizeLimit limit(500);
-        EXPECT_EQ(run(scratch, call).status, 1);
+        EXPECT_EQ(run_fabric(scratch, call).status, 1);
     }
     ASSERT_TRUE(fs::exists(parts + ".checkpoint"));
-    const Outcome resumed = run(scratch, call);
+    const Outcome resumed = run_fabric(scratch, call);
     ASSERT_EQ(resumed.status, 0) << resumed.err;
     EXPECT_LT(json::parse(resumed.out).at("photons"), 1500000); // or nothing was resumed
     EXPECT_FALSE(fs::exists(parts + ".checkpoint"));
-    ASSERT_EQ(run(scratch, simulation(whole, photons)).status, 0);
+    ASSERT_EQ(run_fabric(scratch, simulation(whole, photons)).status, 0);
     EXPECT_EQ(read_file(parts), read_file(whole));
 }
 
@@ -251,7 +243,7 @@ TEST(FabricSimulate, RefusesWrongInput) {
     const std::string out = (scratch / "n/a.csv").string();
     const auto status = [&](std::vector<std::string> call, const std::string &said) {
         call.insert(call.begin(), "simulate");
-        const Outcome wrong = run(scratch, call);
+        const Outcome wrong = run_fabric(scratch, call);
         EXPECT_NE(wrong.err.find(said), std::string::npos) << wrong.err;
         EXPECT_EQ(wrong.out, "");
         EXPECT_FALSE(fs::exists(scratch / "n"));
@@ -276,14 +268,14 @@ TEST(FabricShow, DrawsLobesAndMap) {
     const fs::path png = scratch / "n/it's.png", svg = scratch / "n/lobes.svg";
     const std::string table = small_table(scratch);
     const Outcome drawn =
-        run(scratch, {"show", satin().string(), "-o", png.string(), "--against", table});
+        run_fabric(scratch, {"show", satin().string(), "-o", png.string(), "--against", table});
     ASSERT_EQ(drawn.status, 0) << drawn.err;
     EXPECT_EQ(drawn.out, png.string() + "\n");
     const Image image = read_image(png);
     EXPECT_EQ(image.width, 1200);
     EXPECT_EQ(image.height, 1000);
-    const Outcome bare =
-        run(scratch, {"show", satin().string(), "-o", svg.string(), "--model", "half_vector"});
+    const Outcome bare = run_fabric(
+        scratch, {"show", satin().string(), "-o", svg.string(), "--model", "half_vector"});
     ASSERT_EQ(bare.status, 0) << bare.err;
     const std::string text = read_file(svg);
     for (const char *label : {"Light in the warp plane", "Light in the bias plane", "theta_r",
@@ -298,11 +290,11 @@ TEST(FabricShow, DrawsLobesAndMap) {
 TEST(FabricShow, RefusesWrongInput) {
     const Scratch scratch;
     const Outcome kind =
-        run(scratch, {"show", satin().string(), "-o", (scratch / "n/a.pdf").string()});
+        run_fabric(scratch, {"show", satin().string(), "-o", (scratch / "n/a.pdf").string()});
     EXPECT_EQ(kind.status, 1);
     EXPECT_NE(kind.err.find("expected a name that ends in .svg"), std::string::npos) << kind.err;
-    const Outcome model = run(scratch, {"show", satin().string(), "-o",
-                                        (scratch / "a.svg").string(), "--model", "takedo"});
+    const Outcome model = run_fabric(scratch, {"show", satin().string(), "-o",
+                                               (scratch / "a.svg").string(), "--model", "takedo"});
     EXPECT_EQ(model.status, 1);
     EXPECT_NE(model.err.find("did you mean takeda"), std::string::npos) << model.err;
     EXPECT_FALSE(fs::exists(scratch / "a.svg"));
@@ -311,14 +303,14 @@ TEST(FabricShow, RefusesWrongInput) {
 TEST(FabricShow, DrawsAWeaveBesideItsDraft) {
     const Scratch scratch;
     const fs::path png = scratch / "n/weave.png", svg = scratch / "weave.svg";
-    const Outcome drawn = run(scratch, {"show", "--weave", "shot silk", "-o", png.string(),
-                                        "--size", "64", "--tilt", "30"});
+    const Outcome drawn = run_fabric(scratch, {"show", "--weave", "shot silk", "-o", png.string(),
+                                               "--size", "64", "--tilt", "30"});
     ASSERT_EQ(drawn.status, 0) << drawn.err;
     EXPECT_EQ(drawn.out, png.string() + "\n");
     EXPECT_GT(read_image(png).width, 2 * 64);
     const std::string toml =
         scratch.write("a & b.toml", "[weave]\ndraft = \"satin 5\"\nname = \"a & b\"\n").string();
-    const Outcome vector = run(
+    const Outcome vector = run_fabric(
         scratch, {"show", "--weave", toml, "-o", svg.string(), "--size", "64", "--across", "1"});
     ASSERT_EQ(vector.status, 0) << vector.err;
     const std::string text = read_file(svg);
@@ -336,7 +328,7 @@ TEST(FabricShow, DrawsTheSampleDraft) {
     const fs::path wif = scene::data_folder() / "weaves/eight_end_satin.wif";
     const fs::path svg = scratch / "satin.svg";
     const Outcome drawn =
-        run(scratch, {"show", "--weave", wif.string(), "-o", svg.string(), "--size", "64"});
+        run_fabric(scratch, {"show", "--weave", wif.string(), "-o", svg.string(), "--size", "64"});
     ASSERT_EQ(drawn.status, 0) << drawn.err;
     EXPECT_NE(read_file(svg).find(">Eight-end satin<"), std::string::npos);
 }
@@ -346,7 +338,7 @@ TEST(FabricShow, RefusesAWeaveThatItCannotDraw) {
     const std::string out = (scratch / "a.png").string();
     const auto expect = [&](std::vector<std::string> arguments, int status, const char *says) {
         arguments.insert(arguments.begin(), "show");
-        const Outcome refused = run(scratch, arguments);
+        const Outcome refused = run_fabric(scratch, arguments);
         EXPECT_EQ(refused.status, status) << refused.err;
         EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
         EXPECT_FALSE(fs::exists(out));
@@ -372,7 +364,7 @@ TEST(FabricShow, NamesThePackageOfGnuplot) {
     const std::string path = std::getenv("PATH") ? std::getenv("PATH") : "";
     setenv("PATH", scratch.folder().c_str(), 1);
     const Outcome refused =
-        run(scratch, {"show", satin().string(), "-o", (scratch / "a.svg").string()});
+        run_fabric(scratch, {"show", satin().string(), "-o", (scratch / "a.svg").string()});
     setenv("PATH", path.c_str(), 1);
     EXPECT_EQ(refused.status, 1);
     EXPECT_NE(refused.err.find("gnuplot-nox"), std::string::npos) << refused.err;

@@ -5,9 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "samples/process.h"
-#include "samples/scratch.h"
-#include "tsuya/scene/data_folder.h"
+#include "samples/fabric_run.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/reflectance_file.h"
@@ -18,13 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using scene::Scratch;
-
-Outcome run(const Scratch &scratch, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "fabric");
-    return run_program(arguments, scratch.folder());
-}
-
-fs::path satin() { return scene::data_folder() / "fabrics/black_satin.fabric.toml"; }
 
 // What the sample satin would show under light from straight above and two views under each of six
 // lights, its weft deeper than light from above tells.
@@ -63,7 +54,8 @@ TEST(FabricFit, UsesObliqueViewsIfAsked) {
     const std::string table = dozen_table(scratch), normal = (scratch / "n.fabric.toml").string(),
                       all = (scratch / "a.fabric.toml").string();
     const auto fit = [&](const std::string &use, const std::string &file) {
-        return run(scratch, {"fit", table, "-o", file, "--f0", "0.05", "--use", use, "--json"});
+        return run_fabric(scratch,
+                          {"fit", table, "-o", file, "--f0", "0.05", "--use", use, "--json"});
     };
     const Outcome above = fit("normal", normal), both = fit("all", all);
     ASSERT_EQ(above.status, 0) << above.err;
@@ -84,15 +76,15 @@ TEST(FabricFit, UsesObliqueViewsIfAsked) {
     EXPECT_NEAR(std::get<YarnLobes>(fitted.specular).pit[0], after.at("pit_weft").get<double>(),
                 1e-9);
     EXPECT_TRUE(views_of(fitted)) << "the views are kept";
-    const Outcome text = run(scratch, {"fit", table, "-o", all, "--use", "all"});
+    const Outcome text = run_fabric(scratch, {"fit", table, "-o", all, "--use", "all"});
     EXPECT_NE(text.out.find("oblique views 12 under 6 lights, fitted: l2_cos"), std::string::npos);
 }
 
 TEST(FabricFit, NamesObliqueViewsThatDoNotFit) {
     const Scratch scratch;
     const std::string file = (scratch / "a.fabric.toml").string();
-    const Outcome odd =
-        run(scratch, {"fit", dozen_table(scratch, 30), "-o", file, "--f0", "0.05", "--use", "all"});
+    const Outcome odd = run_fabric(
+        scratch, {"fit", dozen_table(scratch, 30), "-o", file, "--f0", "0.05", "--use", "all"});
     EXPECT_EQ(odd.status, 0);
     EXPECT_NE(odd.err.find("theta 60, phi 261 under light at theta_i 60, phi_i 45"),
               std::string::npos)
@@ -105,12 +97,13 @@ TEST(FabricFit, RefusesObliqueViewsThatAreNone) {
     ReflectanceTable above = read_reflectance_table(dozen_table(scratch)).normal_incidence();
     write_reflectance_table(above, scratch / "above.csv");
     const Outcome none =
-        run(scratch, {"fit", (scratch / "above.csv").string(), "-o", file, "--use", "all"});
+        run_fabric(scratch, {"fit", (scratch / "above.csv").string(), "-o", file, "--use", "all"});
     EXPECT_EQ(none.status, 1);
     EXPECT_NE(none.err.find("0 views under oblique light"), std::string::npos) << none.err;
     EXPECT_FALSE(fs::exists(scratch / "n"));
     EXPECT_EQ(
-        run(scratch, {"fit", (scratch / "above.csv").string(), "-o", file, "--use", "some"}).status,
+        run_fabric(scratch, {"fit", (scratch / "above.csv").string(), "-o", file, "--use", "some"})
+            .status,
         2);
 }
 

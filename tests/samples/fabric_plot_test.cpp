@@ -7,9 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "samples/process.h"
-#include "samples/scratch.h"
-#include "tsuya/scene/data_folder.h"
+#include "samples/fabric_run.h"
 #include "tsuya/scene/lobe_plot.h"
 #include "tsuya/scene/ring_plot.h"
 #include "tsuya/sdk/angle.h"
@@ -21,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using scene::Scratch;
-
-fs::path satin() { return scene::data_folder() / "fabrics/black_satin.fabric.toml"; }
 
 Outcome show(const Scratch &scratch, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"fabric", "show", satin().string()});

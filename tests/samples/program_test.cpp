@@ -1,10 +1,6 @@
 // The program from end to end: exit status, streams, files.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
-#include <sstream>
-
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -12,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "limited_disk.h"
 #include "samples/program_run.h"
 #include "tsuya/scene/data_folder.h"
 

@@ -1,20 +1,12 @@
 // tsuya render, from end to end: pictures, checkpoints, signals.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
-#include <sstream>
-
-#include <fcntl.h>
 #include <signal.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "limited_disk.h"
 #include "samples/program_run.h"
-#include "tsuya/scene/data_folder.h"
 
 namespace tsuya::program {
 namespace {

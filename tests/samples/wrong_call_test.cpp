@@ -55,17 +55,28 @@ TEST(WrongCall, NoResultReplacesWhatTheSceneReads) {
     std::string text = scene::small_scene();
     text.replace(text.find("radiance = 0.2"), 14, "picture = \"sky.exr\"");
     scratch.write("small.scene.toml", text);
-    const std::string mesh = (scratch / "cloth.obj").string();
-    for (const auto &[file, call] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-             {sky, {"render", scene_file, "-o", sky, "--spp", "1"}},
-             {mesh, {"render", scene_file, "-o", out, "--stats", mesh, "--spp", "1"}}}) {
+    const auto keeps = [&](const std::string &file, const std::vector<std::string> &call,
+                           int status, const std::string &says) {
         const std::string before = read_file(file);
         const Outcome outcome = run(scratch, call);
-        EXPECT_EQ(outcome.status, 2) << outcome.err;
-        EXPECT_NE(outcome.err.find("it would replace a file of the scene"), std::string::npos)
-            << outcome.err;
+        EXPECT_EQ(outcome.status, status) << outcome.err;
+        EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
         EXPECT_EQ(read_file(file), before) << file;
-    }
+    };
+    const std::string replaces = "it would replace a file of the scene";
+    keeps(sky, {"render", scene_file, "-o", sky, "--spp", "1"}, 2, replaces);
+    // The picture of a lamp
+    const std::string lit = (scratch / "out-A.png").string();
+    ASSERT_EQ(run(scratch, {"relight", sky, "--lamp", "A", "-o", lit}).status, 0);
+    text.replace(text.find("sky.exr"), 7, "out-A.png");
+    scratch.write("small.scene.toml", text + "[output]\nlamps = [\"A\"]\n");
+    keeps(lit, {"render", scene_file, "-o", out, "--spp", "1"}, 2, replaces);
+    // Statistics are JSON: no mesh, lamp, dye, table of a fabric or buffer of a mesh has their name
+    const std::string lamp = scratch.write("lamp.csv", "400,1\n700,1\n").string();
+    write_scene(scratch, "[output]\nlamps = [\"lamp.csv\"]\n");
+    for (const std::string &file : {(scratch / "cloth.obj").string(), lamp})
+        keeps(file, {"render", scene_file, "-o", out, "--stats", file, "--spp", "1"}, 1,
+              "ends in .json");
     EXPECT_FALSE(fs::exists(out));
 }
 

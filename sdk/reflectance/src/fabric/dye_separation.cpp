@@ -76,17 +76,6 @@ DyedCloth separate(const std::vector<ReflectanceTable> &channels, const BodyShap
     return cloth;
 }
 
-// Mean of a function over the hemisphere, weighted by the cosine.
-template <class Function> double hemisphere_mean(const Function &f) {
-    constexpr int kSteps = 32;
-    double sum = 0;
-    for (int i = 0; i < kSteps; ++i)
-        for (int j = 0; j < kSteps; ++j)
-            sum += f(direction_of(std::asin(std::sqrt((i + 0.5) / kSteps)),
-                                  2 * kPi * (j + 0.5) / kSteps));
-    return sum / (kSteps * kSteps);
-}
-
 } // namespace
 
 DyedCloth separate_dye(const ReflectanceFile &file, const std::string &where,
@@ -105,10 +94,13 @@ DyedCloth separate_dye(const ReflectanceFile &file, const std::string &where,
         .name = "surface",
         .specular = CarriedViews{.bard = Bard::fit(cloth.surface, where, progress), .f0 = f0}};
     const std::optional<Brdf> surface = make_brdf(fabric, where, progress);
+    constexpr double kLeastPassed = 0.01;
     const auto passed = [&](const glm::dvec3 &d) {
-        return surface ? std::max(1 - double{surface->albedo_of_light(glm::vec3(d))}, 0.01) : 1.0;
+        return surface ? std::max(1 - double{surface->albedo_of_light(glm::vec3(d))}, kLeastPassed)
+                       : 1.0;
     };
-    const double mean_passed = hemisphere_mean(passed);
+    const double mean_passed =
+        surface ? std::max(1 - double{mean_albedo(*surface)}, kLeastPassed) : 1.0;
     cloth =
         separate(channels, [&](const glm::dvec3 &v) { return passed(v) / (kPi * mean_passed); });
     for (std::size_t c = 0; c < cloth.reflectance.size(); ++c)

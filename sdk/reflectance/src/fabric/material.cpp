@@ -84,8 +84,9 @@ struct Port {
 // Adds the coloured part and what the cloth lets through.
 // \param made of the same specular part, if there is one; its body serves where its surface
 // reflects or does not as this one's
-void add_colours(const FabricColours &colours, Material &material, const Material *made,
+void add_colours(const Fabric &fabric, Material &material, const Material *made,
                  const Progress &progress) {
+    const FabricColours &colours = fabric.colours;
     // Of light, for viewers too: so the renderer scales the Lambertian part
     const auto surface = [&](const glm::vec3 &d) {
         return material.has_specular() ? std::min(material.specular->albedo_of_light(d), 1.0f)
@@ -93,7 +94,7 @@ void add_colours(const FabricColours &colours, Material &material, const Materia
     };
     const auto *const yarns = material.specular ? material.specular->get_if<YarnBrdf>() : nullptr;
     Port port{.colours = colours, .even = std::max(1 - at_port(surface), kLeastPassed)};
-    if (yarns && has_filaments(yarns->lobes()) && colours.any_dye() && colours.delustre != 1.0) {
+    if (yarns && has_filaments(yarns->lobes()) && has_body(fabric)) {
         if (made && made->body && made->has_specular() == material.has_specular())
             material.body = made->body;
         else
@@ -123,7 +124,7 @@ Material resolve_with(const Fabric &fabric, const std::string &where, const Mate
     Material material{.specular = made ? made->specular : make_brdf(fabric, where, progress),
                       .weft_tint = fabric.colours.weft(),
                       .warp_tint = fabric.colours.warp()};
-    add_colours(fabric.colours, material, made, progress);
+    add_colours(fabric, material, made, progress);
     return material;
 }
 
