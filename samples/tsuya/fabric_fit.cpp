@@ -62,10 +62,8 @@ struct FabricFit final : Command {
         Fabric fabric{.name = name.empty() ? table_file.stem().string() : name,
                       .keys = table.keys,
                       .specular = views};
-        if (dyed) {
+        if (dyed)
             fabric.colours.dye = spectrum_of(read, dyed->reflectance);
-            fabric.colours.delustre = 1; // the diffuser that it was separated as
-        }
         Report report{.bard = bard, .channels = body_of(read, dyed)};
         if (use == "all") {
             if (const auto brdf = make_brdf(fabric, "fabric", progress))

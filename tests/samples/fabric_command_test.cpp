@@ -68,8 +68,8 @@ TEST(FabricEvaluate, ComparesEveryModelInTheDye) {
         fabric.colours = colours;
         const std::string file = (scratch / "tinted.fabric.toml").string();
         write_fabric(fabric, file);
-        const Outcome done = run(scratch, {"evaluate", file, "--against", table, "--model", "all",
-                                           "--reflectance", "0.4", "--json"});
+        const Outcome done = run_fabric(scratch, {"evaluate", file, "--against", table, "--model",
+                                                  "all", "--reflectance", "0.4", "--json"});
         EXPECT_EQ(done.status, 0) << done.err;
         return json::parse(done.out)["results"];
     };

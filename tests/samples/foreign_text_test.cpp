@@ -137,6 +137,8 @@ TEST(ForeignTable, ChannelsBecomeADye) {
     }
     EXPECT_NE(read_file(fabric).find("[dye]\nwavelength_nm = [450, 550, 650]"), std::string::npos)
         << read_file(fabric);
+    // The coloured part follows the yarns, as that of any dyed fabric
+    EXPECT_EQ(read_file(fabric).find("delustre"), std::string::npos);
     // Colours become a smooth spectrum
     std::string colours = read_file(table);
     for (const auto &[from, to] : {std::pair("450nm", "b"), {"550nm", "g"}, {"650nm", "r"}})

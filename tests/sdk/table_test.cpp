@@ -164,6 +164,7 @@ TEST(Table, OneClearErrorForWhatCannotBeRead) {
     const std::string angles = "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,";
     for (const Bad &bad : {
              Bad{kRows, "t.csv:1:1", "no header line but numbers"},
+             {"", "t.csv:1:1", "the table has no row"},
              {replaced(kColumns, "theta_r_deg", "theta_o_deg") + "\n" + kRows, "t.csv:1:1",
               "no column theta_r_deg"},
              {replaced(kColumns, "theta_r_deg", "theta_r") + "\n" + kRows, "t.csv:1:1",

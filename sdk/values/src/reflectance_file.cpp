@@ -50,6 +50,7 @@ class TableReader {
             ++line_;
             read_line(line);
         }
+        line_ = std::max<std::size_t>(line_, 1); // an empty file has a first line too
         if (problems_.empty() && frame_.rows.empty())
             problem("the table has no row", 1, accepted_columns());
         if (problems_.empty())

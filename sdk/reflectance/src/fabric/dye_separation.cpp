@@ -94,15 +94,11 @@ DyedCloth separate_dye(const ReflectanceFile &file, const std::string &where,
         .name = "surface",
         .specular = CarriedViews{.bard = Bard::fit(cloth.surface, where, progress), .f0 = f0}};
     const std::optional<Brdf> surface = make_brdf(fabric, where, progress);
-    constexpr double kLeastPassed = 0.01;
     const auto passed = [&](const glm::dvec3 &d) {
-        return surface ? std::max(1 - double{surface->albedo_of_light(glm::vec3(d))}, kLeastPassed)
-                       : 1.0;
+        return surface ? std::max(1 - double{surface->albedo_of_light(glm::vec3(d))}, 0.01) : 1.0;
     };
-    const double mean_passed =
-        surface ? std::max(1 - double{mean_albedo(*surface)}, kLeastPassed) : 1.0;
-    cloth =
-        separate(channels, [&](const glm::dvec3 &v) { return passed(v) / (kPi * mean_passed); });
+    const double mean = surface ? double{mean_passed(*surface)} : 1.0;
+    cloth = separate(channels, [&](const glm::dvec3 &v) { return passed(v) / (kPi * mean); });
     for (std::size_t c = 0; c < cloth.reflectance.size(); ++c)
         if (cloth.reflectance[c] > 1)
             throw Error({"the body of channel " + file.channels[c].name + " reflects " +

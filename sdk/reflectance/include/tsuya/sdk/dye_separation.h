@@ -28,12 +28,12 @@ struct DyedCloth {
 ///
 /// How much more one channel reflects than another, over the hemisphere, is the body's alone. What
 /// all have in common is the surface's and the body's: as much of it is the body's as leaves 9 of
-/// 10 views a surface that is not negative. The body is taken for a diffuser below the surface, as
-/// renders have it with a delustre of 1. So what the surface reflects evenly counts as the body's;
-/// of black satins, linings and taffetas that is 0.001 to 0.005 in reflectance. A view that leaves
-/// the surface less than a 500th of its peak has that. \param f0 of the fibres, as in CarriedViews
-/// Throws Error naming `where` as Bard::fit and for a body that reflects more than it receives;
-/// Interrupted where progress asks to stop.
+/// 10 views a surface that is not negative. The body is taken for a diffuser below the surface,
+/// which renders have with a delustre of 1 alone. So what the surface reflects evenly counts as the
+/// body's; of black satins, linings and taffetas that is 0.001 to 0.005 in reflectance. A view that
+/// leaves the surface less than a 500th of its peak has that. Throws Error naming `where` as
+/// Bard::fit and for a body that reflects more than it receives; Interrupted where progress asks to
+/// stop. \param f0 of the fibres, as in CarriedViews
 DyedCloth separate_dye(const ReflectanceFile &file, const std::string &where,
                        std::optional<double> f0 = {}, const Progress &progress = {});
 
