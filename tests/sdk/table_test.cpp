@@ -178,6 +178,8 @@ TEST(Table, OneClearErrorForWhatCannotBeRead) {
              {angles + "brdf_550nm,brdf_per_sr\n", "t.csv:1:1", "of several kinds"},
              {angles + "brdf_550nm,sigma_560nm\n", "t.csv:1:1", "no column of values"},
              {angles + "brdf_550nm,brdf_550.0nm\n", "t.csv:1:1", "given twice"},
+             {angles + "brdf_0.45nm,brdf_0.55nm\n", "t.csv:1:1", "brdf_0.45nm is not from 100"},
+             {angles + "brdf_550nm,brdf_1e300nm\n", "t.csv:1:1", "brdf_1e300nm is not from 100"},
              {kColumns + "\n" + kRows + "0,0,30,0,NaN\n", "t.csv:5:10", "brdf_per_sr is 'NaN'"},
              {kColumns + "\n" + kRows + "0,0,30,0,inf\n", "t.csv:5:10", "brdf_per_sr is 'inf'"},
              {kColumns + "\n0,0,30,0,1e999\n", "t.csv:2:10", "brdf_per_sr is '1e999'"},

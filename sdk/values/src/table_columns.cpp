@@ -9,6 +9,7 @@ namespace tsuya {
 namespace {
 
 constexpr std::string_view kDegreeSign = "\xC2\xB0";
+constexpr double kShortestNm = 100, kLongestNm = 3000; // ultraviolet to near infrared
 
 // "Theta_i [deg]" and "theta_i (°)" as theta_i_deg.
 std::string plain_name(std::string name) {
@@ -98,6 +99,9 @@ class HeaderReader {
             channel.erase(0, std::min(channel.size(), std::string_view(what).size() + 1));
             if (!channel.empty() && !is_colour(channel) && !wavelength_of(channel))
                 return false;
+            if (const auto nm = wavelength_of(channel);
+                nm && !(*nm >= kShortestNm && *nm <= kLongestNm))
+                fail("the wavelength of " + name + " is not from 100 to 3000 nm");
             std::optional<std::size_t> &place = column_of(channel).*member;
             if (place)
                 fail(name + " is given twice");
