@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "json.h"
+#include "same_file.h"
 #include "tsuya/lab/measure_session.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/angle.h"
@@ -80,21 +81,35 @@ struct LabMeasure final : Command {
     }
 
     Status run(Console &console) override {
-        scene::prepare_output_file(output, {".csv"});
+        scene::check_output_file(output, {".csv"});
         if (!report.empty())
-            scene::prepare_output_file(report, {".json"});
+            scene::check_output_file(report, {".json"});
         const lab::Session session = lab::read_session(session_folder);
+        check_output(session);
         const lab::SessionMeasurement measured =
             lab::measure_session(session, settings(), console.progress());
         console.end_line();
         for (const std::string &warning : measured.warnings)
             console.warning(warning);
+        scene::prepare_output_file(output, {".csv"});
         for (const lab::ChannelMeasurement &channel : measured.channels)
             write_reflectance_table(channel.table, table_of(channel, measured));
-        if (!report.empty())
+        if (!report.empty()) {
+            scene::prepare_output_file(report, {".json"});
             write_file(report, json_of(session, measured).text() + "\n");
+        }
         print(measured);
         return measured.left_out.empty() ? kDone : kCheckFailed;
+    }
+
+    /// The session's own tables are read, and must not be replaced.
+    void check_output(const lab::Session &session) const {
+        const auto *const standard = std::get_if<std::filesystem::path>(&session.rig.white.rho_std);
+        for (const std::filesystem::path &read :
+             {standard ? *standard : std::filesystem::path(), session.rig.camera.response})
+            if (!read.empty() && is_same_file(output, read))
+                throw WrongCall(Problem{"it would replace a file of the session", output.string(),
+                                        "expected another name"});
     }
 
     lab::MeasureSettings settings() const {

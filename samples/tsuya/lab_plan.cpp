@@ -54,6 +54,7 @@ struct LabPlan final : Command {
                                  .white = white == kWhites[0] ? lab::WhiteUse::each_light
                                                               : lab::WhiteUse::each_view,
                                  .white_every = static_cast<std::size_t>(white_every)});
+        scene::prepare_output_file(output, {".jsonl"});
         lab::write_plan(plan, output);
         const lab::PlanEstimate sum = lab::estimate(plan, rig);
         if (json)

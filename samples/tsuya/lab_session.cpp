@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include "json.h"
@@ -33,14 +34,32 @@ bool enter_was_pressed() {
     throw Error({"nobody is there to answer", "standard input", "expected a terminal"});
 }
 
-/// A terminal that takes nothing now is not waited for: the lamp is lit.
-void ask(const std::string &what) {
-    const std::string line = "\ntsuya: please " + what + ", then press Enter\n";
-    pollfd terminal{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
-    const bool takes = poll(&terminal, 1, 0) > 0 && (terminal.revents & POLLOUT) != 0;
-    [[maybe_unused]] const ssize_t told =
-        takes ? write(STDERR_FILENO, line.data(), line.size()) : 0;
-}
+/// The operator at the terminal. A terminal that takes nothing now is not waited for, since the
+/// lamp is lit: the question comes as soon as it does.
+class Operator {
+  public:
+    void ask(const std::string &what) {
+        untold_ = "\ntsuya: please " + what + ", then press Enter\n";
+        tell();
+    }
+    bool answered() {
+        tell();
+        return untold_.empty() && enter_was_pressed();
+    }
+
+  private:
+    void tell() {
+        pollfd terminal{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+        if (untold_.empty() || poll(&terminal, 1, 0) <= 0)
+            return;
+        // What was typed before the question is no answer to it. Does nothing without a terminal.
+        tcflush(STDIN_FILENO, TCIFLUSH);
+        const ssize_t told = write(STDERR_FILENO, untold_.data(), untold_.size());
+        untold_.erase(0, told < 0 ? std::string::npos : static_cast<std::size_t>(told));
+    }
+
+    std::string untold_{};
+};
 
 /// What the surface of a fabric reflects; its body is left out, as in a black cloth.
 std::function<double(const DirectionPair &)> reflectance_of(const std::filesystem::path &fabric) {
@@ -71,13 +90,14 @@ void SessionOptions::options(Options &o) {
 /// The lines are let go before anything waits for a terminal that does not take the progress.
 lab::SessionResult SessionOptions::result(const std::filesystem::path &folder, Console &console,
                                           const std::filesystem::path &plan) const {
+    Operator people;
     lab::SessionJob job{.folder = folder,
                         .read = lab::read_frame_facts,
                         .wait = wait_,
                         .tries = tries_,
                         .library_threads = lab::other_threads(), // none is our own yet
-                        .ask = ask,
-                        .answered = enter_was_pressed};
+                        .ask = [&](const std::string &what) { people.ask(what); },
+                        .answered = [&] { return people.answered(); }};
     if (dry_run_)
         job.simulated_camera = [cloth = reflectance_of(fabric_)](const lab::RigFile &rig,
                                                                  lab::Clock &clock) {

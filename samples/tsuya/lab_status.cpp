@@ -34,11 +34,17 @@ struct LabStatus final : Command {
                   << " pictures rejected, " << status.runs << " runs\n"
                   << (status.running.empty() ? "not running" : "run by process " + status.running)
                   << ", last event " << (status.last.empty() ? "none" : status.last) << "\n"
-                  << "lamp " << (status.lamp_lit ? "lit" : "off") << ", " << status.strikes
-                  << " strikes, " << std::fixed << std::setprecision(2) << status.lamp_hours
-                  << " hours\n";
+                  << "lamp " << lamp_of(status) << ", " << status.strikes << " strikes, "
+                  << std::fixed << std::setprecision(2) << status.lamp_hours << " hours\n";
         if (status.latched)
             std::cout << "fault to be acknowledged: " << *status.latched << "\n";
+    }
+
+    /// A run that was killed could not note what its supervisor did.
+    static const char *lamp_of(const lab::SessionStatus &status) {
+        if (!status.lamp_lit)
+            return "off";
+        return status.running.empty() ? "lit when the last run was cut off" : "lit";
     }
 
     static void print_json(const lab::SessionStatus &status) {

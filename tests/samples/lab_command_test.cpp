@@ -3,6 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include "samples/process.h"
 #include "samples/scratch.h"
 #include "tsuya/color/camera_frame.h"
@@ -23,7 +27,7 @@ TEST(LabCommands, PlanSaysWhatASessionWillTake) {
         words.insert(words.begin(), {"lab", "plan"});
         return run_program(words, scratch.folder());
     };
-    const std::string output = (scratch / "a.plan.jsonl").string();
+    const std::string output = (scratch / "plans" / "a.plan.jsonl").string();
     const Outcome planned = run({TSUYA_RIG_SAMPLE, "--views", "few:5", "--symmetry", "orthotropic",
                                  "-o", output, "--json"});
     ASSERT_EQ(planned.status, 0) << planned.err;
@@ -133,11 +137,82 @@ TEST(LabCommands, ASessionWithoutARigFromPlanToPictures) {
     EXPECT_EQ(run({"measure", session, "-o", table, "--repeat-mm", "0.4,x"}).status, 2);
     EXPECT_EQ(run({"measure", session, "-o", table, "--without", "shadow"}).status, 2);
     EXPECT_EQ(run({"measure", (scratch / "none").string(), "-o", table}).status, 1);
+    const std::string rig = read_file(session + "/rig.toml"), white = session + "/white.csv";
+    std::string with_file = rig;
+    with_file.replace(with_file.find("rho_std = 0.99"), 14, "rho_std = \"white.csv\"");
+    write_file(session + "/rig.toml", with_file);
+    write_file(white, "400,0.98\n700,0.98\n");
+    EXPECT_EQ(run({"measure", session, "-o", white}).status, 2) << "it is read";
+    EXPECT_EQ(read_file(white), "400,0.98\n700,0.98\n");
+    write_file(session + "/rig.toml", rig);
+    const std::string journal = session + "/journal.jsonl", whole = read_file(journal);
+    write_file(journal, whole.substr(0, whole.find("\"file\"")));
+    EXPECT_NE(run({"status", session}).out.find("lamp lit when the last run was cut off"),
+              std::string::npos);
+    write_file(journal, whole);
     EXPECT_EQ(run({"resume", session, "--dry-run"}).status, 0);
     EXPECT_EQ(run({"resume", session}).status, 1);                       // was begun as a dry run
     EXPECT_EQ(run({"run", plan, "-o", session, "--dry-run"}).status, 1); // is there
     EXPECT_EQ(run({"run", plan, "-o", session, "--fabric", "x"}).status, 2);
     EXPECT_EQ(run({"status", (scratch / "none").string()}).status, 1);
+}
+
+/// What the program prints at a terminal on which something was typed before it began.
+std::string run_at_terminal(const std::vector<std::string> &words, const std::string &typed) {
+    std::vector<char *> arguments{const_cast<char *>(TSUYA_PROGRAM)};
+    for (const std::string &word : words)
+        arguments.push_back(const_cast<char *>(word.c_str()));
+    arguments.push_back(nullptr);
+    const int ours = posix_openpt(O_RDWR | O_NOCTTY);
+    if (ours < 0 || grantpt(ours) != 0 || unlockpt(ours) != 0)
+        throw std::runtime_error("no terminal");
+    const std::string name = ptsname(ours);
+    const int theirs = open(name.c_str(), O_RDWR | O_NOCTTY);
+    if (write(ours, typed.data(), typed.size()) != static_cast<ssize_t>(typed.size()))
+        throw std::runtime_error("nothing can be typed");
+    const pid_t child = fork();
+    if (child == 0) {
+        setsid();
+        const int terminal = open(name.c_str(), O_RDWR); // of the new session
+        for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+            dup2(terminal, descriptor);
+        close(ours);
+        close(theirs);
+        close(terminal);
+        execv(arguments[0], arguments.data());
+        _exit(127);
+    }
+    close(theirs);
+    std::string printed;
+    char part[256];
+    for (ssize_t got; (got = read(ours, part, sizeof part)) > 0;)
+        printed.append(part, static_cast<std::size_t>(got));
+    waitpid(child, nullptr, 0);
+    close(ours);
+    return printed;
+}
+
+TEST(LabCommands, AnEnterFromBeforeTheQuestionIsNoAnswer) {
+    const Scratch scratch;
+    std::string rig = "schema = \"tsuya-rig 1\"\n[lamp]\nkind = \"led\"\nwarm_up_s = 0.1\n"
+                      "restrike_s = 0\nmin_on_s = 0\nhold_s = 2\n"
+                      "[camera]\ncommand = [\"/bin/false\", \"{file}\", \"{exposure}\"]\n"
+                      "exposures_s = [1]\nsaturation = 900\nblack = 1\ne_per_dn = 1\n"
+                      "read_noise_e = 1\n[white]\nrho_std = 0.99\n";
+    for (const char *axis : {"lamp_theta", "lamp_phi", "camera", "stage"})
+        rig += std::string("[axes.") + axis +
+               "]\ndrive = \"command\"\ncommand = [\"/bin/true\", \"{axis}\", \"{deg}\"]\n";
+    write_file(scratch / "a.rig.toml", rig);
+    const std::string plan = (scratch / "a.plan.jsonl").string();
+    const Outcome planned = run_program(
+        {"lab", "plan", (scratch / "a.rig.toml").string(), "--views", "few:45", "-o", plan},
+        scratch.folder());
+    ASSERT_EQ(planned.status, 0) << planned.err;
+    const std::string printed =
+        run_at_terminal({"lab", "run", plan, "-o", (scratch / "s").string()}, "\n");
+    // The progress may have filled the terminal: the question waits for room.
+    EXPECT_NE(printed.find("please put the white standard"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("nobody has answered"), std::string::npos) << printed;
 }
 
 TEST(LabCommands, ResetNeedsAFaultAndAReason) {
