@@ -66,7 +66,7 @@ TEST_F(TableFile, BadOnesAreRefusedWithLineAndColumn) {
     };
     const std::string good = "0,0,30,0,0.5\n";
     for (const Bad &bad : {
-             Bad{"", ":0:1"},
+             Bad{"", ":1:1"},
              {kHeader, ":1:1"},
              {"theta_i_deg,phi_i_deg,theta_r_deg,brdf_per_sr\n" + good, ":1:1"},
              {good, ":1:1"},
