@@ -6,7 +6,9 @@
 #include "command.h"
 #include "json.h"
 #include "same_file.h"
+#include "tsuya/color/image_file.h"
 #include "tsuya/lab/measure_session.h"
+#include "tsuya/lab/session_pictures.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/file.h"
@@ -52,7 +54,7 @@ Json json_of(const lab::ChannelMeasurement &channel) {
 }
 
 struct LabMeasure final : Command {
-    std::filesystem::path session_folder{}, output{}, report{};
+    std::filesystem::path session_folder{}, output{}, report{}, map{}, sheet{};
     std::vector<std::string> repeat{}, without{};
     double jump = lab::MeasureSettings{}.jump_limit;
 
@@ -60,9 +62,16 @@ struct LabMeasure final : Command {
         o.argument(&session_folder, "SESSION", "folder of a capture session").required();
         o.option("-o,--output", &output, "TABLE.csv",
                  "table of reflectance; of a camera with several colours TABLE.R.csv and so on")
-            .required();
+            .required()
+            .result();
         o.option("--report", &report, "R.json",
-                 "every view with the parts of its error, the lamp, what is left out and why");
+                 "every view with the parts of its error, the lamp, what is left out and why")
+            .result();
+        o.option("--map", &map, "MAP.svg",
+                 "the values on the hemisphere, of the first colour; what is left out is crossed")
+            .result();
+        o.option("--sheet", &sheet, "SHEET.png", "some frames, with the measured patch outlined")
+            .result();
         o.option(
              "--repeat-mm", &repeat, "WEFT,WARP",
              "size of the weave's repeat, mm: patches are cut to whole repeats; without it, the "
@@ -82,8 +91,9 @@ struct LabMeasure final : Command {
 
     Status run(Console &console) override {
         scene::check_output_file(output, {".csv"});
-        if (!report.empty())
-            scene::check_output_file(report, {".json"});
+        check_place(report, ".json");
+        check_place(map, ".svg");
+        check_place(sheet, ".png");
         const lab::Session session = lab::read_session(session_folder);
         check_output(session);
         const lab::SessionMeasurement measured =
@@ -94,12 +104,25 @@ struct LabMeasure final : Command {
         scene::prepare_output_file(output, {".csv"});
         for (const lab::ChannelMeasurement &channel : measured.channels)
             write_reflectance_table(channel.table, table_of(channel, measured));
-        if (!report.empty()) {
-            scene::prepare_output_file(report, {".json"});
+        if (prepare_place(report, ".json"))
             write_file(report, json_of(session, measured).text() + "\n");
-        }
+        if (prepare_place(map, ".svg"))
+            write_file(map, lab::table_picture(session, measured));
+        if (prepare_place(sheet, ".png"))
+            write_png(sheet, lab::contact_sheet(session, measured));
         print(measured);
         return measured.left_out.empty() ? kDone : kCheckFailed;
+    }
+
+    /// Of a result that may not be asked for.
+    static void check_place(const std::filesystem::path &file, const std::string &extension) {
+        if (!file.empty())
+            scene::check_output_file(file, {extension});
+    }
+    static bool prepare_place(const std::filesystem::path &file, const std::string &extension) {
+        if (!file.empty())
+            scene::prepare_output_file(file, {extension});
+        return !file.empty();
     }
 
     /// The session's own tables are read, and must not be replaced.

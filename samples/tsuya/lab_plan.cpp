@@ -7,7 +7,9 @@
 #include "command.h"
 #include "json.h"
 #include "tsuya/lab/planning.h"
+#include "tsuya/lab/session_pictures.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya::program {
 namespace {
@@ -15,7 +17,7 @@ namespace {
 const std::vector<std::string> kWhites{"each-light", "each-view"};
 
 struct LabPlan final : Command {
-    std::filesystem::path rig_file{}, output{};
+    std::filesystem::path rig_file{}, output{}, picture{};
     std::string views = "few:5", white = "each-light";
     std::optional<std::string> symmetry{};
     int white_every = 50;
@@ -38,6 +40,9 @@ struct LabPlan final : Command {
                  "white standard: at one view for each direction of light, or at each view")
             .one_of(kWhites);
         o.option("--white-every", &white_every, "N", "views between white frames").range(1, 1e4);
+        o.option("--picture", &picture, "PLAN.svg",
+                 "the views on the hemisphere, in their order, with those that are left out")
+            .result();
         o.flag("--json", &json, "print the report as JSON");
         o.example("tsuya lab plan ogm.rig.toml --views few:5 -o satin.plan.jsonl");
         o.notes("Views that the rig cannot take are left out; the plan names each with its "
@@ -46,6 +51,8 @@ struct LabPlan final : Command {
 
     Status run(Console &) override {
         scene::check_output_file(output, {".jsonl"});
+        if (!picture.empty())
+            scene::check_output_file(picture, {".svg"});
         const lab::RigFile rig = lab::read_rig_file(rig_file);
         const lab::Plan plan =
             lab::make_plan(rig, {.directions = lab::views_named(views, asked_symmetry()),
@@ -56,6 +63,10 @@ struct LabPlan final : Command {
                                  .white_every = static_cast<std::size_t>(white_every)});
         scene::prepare_output_file(output, {".jsonl"});
         lab::write_plan(plan, output);
+        if (!picture.empty()) {
+            scene::prepare_output_file(picture, {".svg"});
+            write_file(picture, lab::plan_picture(plan));
+        }
         const lab::PlanEstimate sum = lab::estimate(plan, rig);
         if (json)
             print_json(plan, sum);
@@ -75,7 +86,7 @@ struct LabPlan final : Command {
     static std::map<std::string, std::size_t> reasons(const lab::Plan &plan) {
         std::map<std::string, std::size_t> counts;
         for (const lab::LeftOut &left_out : plan.left_out)
-            ++counts[left_out.why.substr(0, left_out.why.find(':'))];
+            ++counts[lab::reason_of(left_out)];
         return counts;
     }
 

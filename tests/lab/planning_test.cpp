@@ -150,6 +150,16 @@ TEST(Planning, MovesTheSlowestAxisLeast) {
     EXPECT_EQ(moves_of(plan, rig, AxisName::lamp_theta), 0u);
 }
 
+// The stage does not run back to its beginning whenever the camera has moved.
+TEST(Planning, PassesFastAxesForthAndBack) {
+    const auto cloth = views_of(plan_of(sample_rig(), "few:5"), FrameKind::cloth);
+    ASSERT_GT(cloth.size(), 500u);
+    for (std::size_t i = 1; i < cloth.size(); ++i)
+        EXPECT_LT(std::abs(cloth[i].directions.phi_r - cloth[i - 1].directions.phi_r),
+                  5.1 * kDegree)
+            << "view " << cloth[i].view;
+}
+
 // One view: dark, white, trap, cloth, white, dark, in one exposure of 1 s.
 TEST(Planning, EstimatesWhatASessionTakes) {
     RigFile rig;

@@ -10,6 +10,7 @@
 #include "samples/process.h"
 #include "samples/scratch.h"
 #include "tsuya/color/camera_frame.h"
+#include "tsuya/color/image_file.h"
 #include "tsuya/lab/plan.h"
 #include "tsuya/lab/safety.h"
 #include "tsuya/sdk/file.h"
@@ -28,9 +29,11 @@ TEST(LabCommands, PlanSaysWhatASessionWillTake) {
         return run_program(words, scratch.folder());
     };
     const std::string output = (scratch / "plans" / "a.plan.jsonl").string();
+    const std::filesystem::path picture = scratch / "drawn" / "plan.svg";
     const Outcome planned = run({TSUYA_RIG_SAMPLE, "--views", "few:5", "--symmetry", "orthotropic",
-                                 "-o", output, "--json"});
+                                 "-o", output, "--picture", picture.string(), "--json"});
     ASSERT_EQ(planned.status, 0) << planned.err;
+    EXPECT_NE(read_file(picture).find("left out, geometry.dead_cone_deg: 20"), std::string::npos);
     const json report = json::parse(planned.out);
     EXPECT_EQ(report.at("schema"), "tsuya-lab-plan 1");
     const lab::Plan plan = lab::read_plan(output);
@@ -46,6 +49,7 @@ TEST(LabCommands, PlanSaysWhatASessionWillTake) {
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", output, "--views", "few:0"}).status, 1);
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", output, "--symmetry", "round"}).status, 2);
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", (scratch / "a.csv").string()}).status, 1);
+    EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", output, "--picture", "plan.bmp"}).status, 1);
 }
 
 /// A rig of programs alone: `cp` as camera, nothing that moves.
@@ -123,8 +127,14 @@ TEST(LabCommands, ASessionWithoutARigFromPlanToPictures) {
     EXPECT_NE(run({"status", session}).out.find("not running"), std::string::npos);
     const std::string table = (scratch / "a.csv").string();
     const std::string measured = (scratch / "a.json").string();
-    const Outcome measure = run({"measure", session, "-o", table, "--report", measured});
+    const std::filesystem::path map = scratch / "drawn" / "a.svg", sheet = scratch / "a.png";
+    const Outcome measure = run({"measure", session, "-o", table, "--report", measured, "--map",
+                                 map.string(), "--sheet", sheet.string()});
     ASSERT_EQ(measure.status, 0) << measure.err;
+    EXPECT_NE(read_file(map).find("channel Y: 4 views"), std::string::npos);
+    EXPECT_EQ(read_image(sheet).channels.size(), 3u);
+    EXPECT_EQ(run({"measure", session, "-o", table, "--map", "map.png"}).status, 1);
+    EXPECT_EQ(run({"measure", session, "-o", table, "--report", table}).status, 2);
     const ReflectanceTable grey = read_reflectance_table(table);
     EXPECT_EQ(grey.keys.at("instrument"), "dry run of a camera goniometer");
     EXPECT_EQ(grey.rows.size(), 4u) << "45 degrees, at 4 azimuths";

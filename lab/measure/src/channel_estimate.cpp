@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "tsuya/lab/number_text.h"
 #include "tsuya/lab/view_geometry.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
@@ -169,7 +170,7 @@ class ChannelEstimator {
         if (lamp->jump)
             return leave_out(cloth, LeftOutReason::lamp_jump,
                              "the white frames before and after it differ by more than " +
-                                 std::to_string(100 * settings_.jump_limit) + " %");
+                                 number_text(100 * settings_.jump_limit) + " %");
         const LightReference &reference = at->second;
         const White white = white_at(reference, *lamp, cloth.directions);
         const PatchLight &light = cloth.colours[colour_];

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "channel_estimate.h"
+#include "tsuya/lab/number_text.h"
 #include "tsuya/lab/view_geometry.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
@@ -22,10 +23,7 @@ constexpr const char *kNoFlicker =
     "the lamp's flicker cannot be told, and is in no error: that takes three white frames of one "
     "light or more";
 
-std::string degrees_text(double angle) {
-    std::string text = std::to_string(std::round(angle / kDegree * 100) / 100);
-    return text.substr(0, text.find('.') + 3);
-}
+std::string degrees_text(double angle) { return number_text(angle / kDegree, 4); }
 
 void check(const MeasureSettings &settings, const Session &session) {
     Problems problems;
@@ -65,7 +63,7 @@ void leave_out_unsharp(SessionLight &light) {
             return false;
         light.left_out.push_back({view.view, view.directions, LeftOutReason::unsharp,
                                   "its contrast from pixel to pixel is " +
-                                      std::to_string(patch.sharpness / usual) + " of the usual"});
+                                      number_text(patch.sharpness / usual, 2) + " of the usual"});
         return true;
     });
 }
@@ -113,10 +111,10 @@ std::map<std::string, std::string> keys_of(const Session &session,
         {"channel", channel.name},
         {"lamp", "serial " +
                      (session.rig.lamp.serial.empty() ? "unknown" : session.rig.lamp.serial) +
-                     ", " + std::to_string(first.lamp_hours) + " h"},
+                     ", " + number_text(first.lamp_hours) + " h"},
         {"white_standard",
          std::holds_alternative<double>(session.rig.white.rho_std)
-             ? std::to_string(std::get<double>(session.rig.white.rho_std))
+             ? number_text(std::get<double>(session.rig.white.rho_std))
              : std::get<std::filesystem::path>(session.rig.white.rho_std).filename().string()},
         {"provenance", "plan " + session.plan_hash + ", rig " + session.rig_hash + ", journal " +
                            session.journal_hash}};
@@ -126,7 +124,7 @@ std::map<std::string, std::string> keys_of(const Session &session,
         keys["lamp"] = "none";
     }
     if (session.rig.white.height_mm != 0)
-        keys["white_height_mm"] = std::to_string(session.rig.white.height_mm);
+        keys["white_height_mm"] = number_text(session.rig.white.height_mm);
     return keys;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "tsuya/lab/number_text.h"
 #include "tsuya/lab/view_geometry.h"
 #include "tsuya/sdk/error.h"
 
@@ -14,12 +15,6 @@ constexpr double kExposureTolerance = 0.1; // relative, of what a picture says
 constexpr double kLargestUnevenness = 2;   // light of two sides of the measured part
 
 using Frames = std::vector<const CountedFrame *>;
-
-std::string text_of(double value) {
-    std::string text = std::to_string(value);
-    text.erase(text.find_last_not_of('0') + 1);
-    return text.back() == '.' ? text + '0' : text;
-}
 
 class SessionLightReader {
   public:
@@ -121,8 +116,9 @@ class SessionLightReader {
             const double said = patches.back().exposure_s.value_or(frame->planned.exposure_s);
             if (std::abs(said / frame->planned.exposure_s - 1) > kExposureTolerance)
                 return leave_out(planned, LeftOutReason::wrong_exposure,
-                                 frame->file.string() + " says " + text_of(said) + " s, the plan " +
-                                     text_of(frame->planned.exposure_s) + " s");
+                                 frame->file.string() + " says " + number_text(said) +
+                                     " s, the plan " + number_text(frame->planned.exposure_s) +
+                                     " s");
             view.time_s += frame->time_s * frame->planned.exposure_s;
             exposure_s += frame->planned.exposure_s;
         }
@@ -157,9 +153,9 @@ class SessionLightReader {
             return true;
         };
         if (spot_mm > 0 && patch_mm > spot_mm)
-            return leave(LeftOutReason::misplaced, "the patch is " + text_of(patch_mm) +
+            return leave(LeftOutReason::misplaced, "the patch is " + number_text(patch_mm) +
                                                        " mm long on the cloth, the lit spot " +
-                                                       text_of(spot_mm));
+                                                       number_text(spot_mm));
         for (const PatchLight &colour : view.colours) {
             if (colour.middle.clipped > 0)
                 return leave(LeftOutReason::saturated,
@@ -167,11 +163,11 @@ class SessionLightReader {
                                  " pixels of the patch are clipped under every exposure");
             if (colour.middle.rate < 3 * colour.middle.sigma)
                 return leave(LeftOutReason::underexposed,
-                             "the light is " + text_of(colour.middle.rate) + " DN/s, its noise " +
-                                 text_of(colour.middle.sigma));
+                             "the light is " + number_text(colour.middle.rate) +
+                                 " DN/s, its noise " + number_text(colour.middle.sigma));
             if (colour.uneven > kLargestUnevenness)
                 return leave(LeftOutReason::misplaced, "one side of the patch has " +
-                                                           text_of(colour.uneven) +
+                                                           number_text(colour.uneven) +
                                                            " times the light of the other");
         }
         return false;

@@ -1,6 +1,7 @@
 #include "tsuya/lab/rig_file.h"
 
 #include "rig_sections.h"
+#include "tsuya/lab/number_text.h"
 
 #include <cmath>
 #include <set>

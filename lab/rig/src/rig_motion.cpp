@@ -1,6 +1,6 @@
 #include "tsuya/lab/rig_motion.h"
 
-#include "rig_sections.h"
+#include "tsuya/lab/number_text.h"
 #include "tsuya/sdk/angle.h"
 
 #include <algorithm>

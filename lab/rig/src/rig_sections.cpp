@@ -1,7 +1,6 @@
 #include "rig_sections.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace tsuya::lab {
 namespace {
@@ -77,12 +76,6 @@ std::vector<std::string> read_command(const Section &section, const std::set<std
             section.problem("command", "the command lacks {" + name + "}",
                             "expected it in one of the words");
     return command;
-}
-
-std::string number_text(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
 }
 
 } // namespace tsuya::lab

@@ -24,7 +24,4 @@ std::optional<Section> required_section(const Section &root, const char *key);
 std::vector<std::string> read_command(const Section &section, const std::set<std::string> &known,
                                       const std::set<std::string> &needed);
 
-/// A number as a person would write it.
-std::string number_text(double value);
-
 } // namespace tsuya::lab

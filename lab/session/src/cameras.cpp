@@ -1,11 +1,11 @@
 #include "tsuya/lab/cameras.h"
 
+#include "tsuya/lab/number_text.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/progress.h"
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <utility>
 
 namespace tsuya::lab {
@@ -15,12 +15,6 @@ namespace fs = std::filesystem;
 using std::chrono::nanoseconds;
 
 constexpr Seconds kLook{0.1}; // at the folder where pictures arrive
-
-std::string seconds_text(double exposure_s) {
-    std::ostringstream text;
-    text << exposure_s;
-    return text.str();
-}
 
 /// Also from one disk to another.
 void move_file(const fs::path &from, const fs::path &to) {
@@ -46,7 +40,7 @@ void CommandCamera::expose(const Shot &shot) {
     CommandRun how = how_;
     how.timeout += Seconds(shot.planned.exposure_s);
     run_command(filled_in(camera_.command, {{"file", shot.file.string()},
-                                            {"exposure", seconds_text(shot.planned.exposure_s)}}),
+                                            {"exposure", number_text(shot.planned.exposure_s)}}),
                 clock_, how);
 }
 

@@ -1,5 +1,7 @@
 #include "frame_store.h"
 
+#include "tsuya/lab/number_text.h"
+
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -79,8 +81,8 @@ FrameStore::Checked FrameStore::check(const Shot &shot, const std::atomic<bool> 
     const double planned = shot.planned.exposure_s;
     const double exposure = checked.facts.exposure_s.value_or(planned);
     if (!(std::abs(exposure - planned) <= kExposureTolerance * planned))
-        throw Error({"the picture was exposed for " + std::to_string(exposure) + " s",
-                     shot.file.string(), "expected " + std::to_string(planned) + " s within 10 %"});
+        throw Error({"the picture was exposed for " + number_text(exposure) + " s",
+                     shot.file.string(), "expected " + number_text(planned) + " s within 10 %"});
     sync_file(shot.file);
     sync_folder(shot.file.parent_path());
     return checked;

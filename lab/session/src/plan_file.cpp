@@ -86,6 +86,10 @@ void take_line(JsonLine line, Plan &plan) {
 
 const char *name_of(FrameKind kind) { return kKinds[static_cast<std::size_t>(kind)].c_str(); }
 
+std::string reason_of(const LeftOut &left_out) {
+    return left_out.why.substr(0, left_out.why.find(':'));
+}
+
 Plan read_plan(const std::filesystem::path &file) {
     const std::string text = read_file(file);
     const TextLines lines = lines_of(text);

@@ -1,17 +1,8 @@
 #include "tsuya/lab/rig_mechanics.h"
 
-#include <sstream>
+#include "tsuya/lab/number_text.h"
 
 namespace tsuya::lab {
-namespace {
-
-std::string degrees_text(double degrees) {
-    std::ostringstream text;
-    text << degrees;
-    return text.str();
-}
-
-} // namespace
 
 RigMechanics::RigMechanics(const RigFile &rig, Clock &clock, AskOperator ask, CommandRun how)
     : rig_(rig), clock_(clock), ask_(std::move(ask)), how_(std::move(how)) {}
@@ -24,7 +15,7 @@ void RigMechanics::run(const std::vector<std::string> &words, Seconds timeout) {
 
 void RigMechanics::move(AxisName name, double position_deg) {
     const RigAxis &axis = rig_.axis(name);
-    const std::string degrees = degrees_text(position_deg);
+    const std::string degrees = number_text(position_deg);
     switch (axis.drive) {
     case AxisDrive::by_operator:
         ask_(std::string("turn ") + name_of(name) + " to " + degrees + " degrees");

@@ -35,24 +35,24 @@ Candidate candidate_of(const DirectionPair &pair, const std::array<std::size_t, 
     return candidate;
 }
 
-/// Forth and back: each group of one angle of an axis is passed in the other direction than the
-/// one before. \return whether the next one is to go forth
-bool order_by(std::span<Candidate> candidates, std::size_t axis, bool forth) {
+/// Forth and back: an axis that has been passed over several angles goes the other way the next
+/// time. \param forth by axis, whether it is to go forth
+void order_by(std::span<Candidate> candidates, std::size_t axis, std::array<bool, kAxes> &forth) {
     if (axis == kAxes)
-        return !forth;
+        return;
     std::stable_sort(
         candidates.begin(), candidates.end(), [&](const Candidate &a, const Candidate &b) {
-            return forth ? a.angles[axis] < b.angles[axis] : a.angles[axis] > b.angles[axis];
+            return forth[axis] ? a.angles[axis] < b.angles[axis] : a.angles[axis] > b.angles[axis];
         });
-    bool next = true;
+    if (candidates.front().angles[axis] != candidates.back().angles[axis])
+        forth[axis] = !forth[axis];
     for (auto begin = candidates.begin(); begin != candidates.end();) {
         const auto end = std::find_if(begin, candidates.end(), [&](const Candidate &c) {
             return c.angles[axis] != begin->angles[axis];
         });
-        next = order_by(std::span(begin, end), axis + 1, next);
+        order_by(std::span(begin, end), axis + 1, forth);
         begin = end;
     }
-    return !forth;
 }
 
 /// The lights in the order of their angles, forth and back in the azimuth.
@@ -80,9 +80,10 @@ std::vector<LightViews> ordered_views(const std::vector<DirectionPair> &pairs, c
     for (const DirectionPair &pair : pairs)
         candidates.push_back(candidate_of(pair, order));
     std::vector<LightViews> lights;
-    bool forth = true;
+    std::array<bool, kAxes> forth;
+    forth.fill(true);
     for (std::vector<Candidate> &light : by_light(std::move(candidates))) {
-        forth = order_by(light, 0, forth);
+        order_by(light, 0, forth);
         LightViews views{.theta_i = light[0].pair.theta_i, .phi_i = light[0].pair.phi_i};
         const Candidate *last = nullptr;
         for (const Candidate &candidate : light) {

@@ -44,6 +44,9 @@ struct LeftOut {
     bool operator==(const LeftOut &) const = default;
 };
 
+/// The part of `why` without its numbers: `geometry.dead_cone_deg`.
+std::string reason_of(const LeftOut &left_out);
+
 /// A whole plan. The number of a frame is its place in `frames`.
 struct Plan {
     Symmetry symmetry = Symmetry::none; ///< of the cloth
