@@ -8,6 +8,7 @@
 #include "same_file.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/lab/measure_session.h"
+#include "tsuya/lab/session_page.h"
 #include "tsuya/lab/session_pictures.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/angle.h"
@@ -54,7 +55,7 @@ Json json_of(const lab::ChannelMeasurement &channel) {
 }
 
 struct LabMeasure final : Command {
-    std::filesystem::path session_folder{}, output{}, report{}, map{}, sheet{};
+    std::filesystem::path session_folder{}, output{}, report{}, page{}, map{}, sheet{};
     std::vector<std::string> repeat{}, without{};
     double jump = lab::MeasureSettings{}.jump_limit;
 
@@ -66,6 +67,9 @@ struct LabMeasure final : Command {
             .result();
         o.option("--report", &report, "R.json",
                  "every view with the parts of its error, the lamp, what is left out and why")
+            .result();
+        o.option("--html", &page, "PAGE.html",
+                 "page of the session: lamp, shutter and frames, drift, errors, what is left out")
             .result();
         o.option("--map", &map, "MAP.svg",
                  "the values on the hemisphere, of the first colour; what is left out is crossed")
@@ -86,12 +90,13 @@ struct LabMeasure final : Command {
                  "corrections that are not made, to see what they do")
             .with_commas()
             .one_of({"dark", "trap", "drift"});
-        o.example("tsuya lab measure satin/ -o satin.csv --report satin.json");
+        o.example("tsuya lab measure satin/ -o satin.csv --report satin.json --html satin.html");
     }
 
     Status run(Console &console) override {
         scene::check_output_file(output, {".csv"});
         check_place(report, ".json");
+        check_place(page, ".html");
         check_place(map, ".svg");
         check_place(sheet, ".png");
         const lab::Session session = lab::read_session(session_folder);
@@ -106,6 +111,8 @@ struct LabMeasure final : Command {
             write_reflectance_table(channel.table, table_of(channel, measured));
         if (prepare_place(report, ".json"))
             write_file(report, json_of(session, measured).text() + "\n");
+        if (prepare_place(page, ".html"))
+            write_file(page, lab::session_page(session, measured));
         if (prepare_place(map, ".svg"))
             write_file(map, lab::table_picture(session, measured));
         if (prepare_place(sheet, ".png"))

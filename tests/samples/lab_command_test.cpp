@@ -128,9 +128,11 @@ TEST(LabCommands, ASessionWithoutARigFromPlanToPictures) {
     const std::string table = (scratch / "a.csv").string();
     const std::string measured = (scratch / "a.json").string();
     const std::filesystem::path map = scratch / "drawn" / "a.svg", sheet = scratch / "a.png";
-    const Outcome measure = run({"measure", session, "-o", table, "--report", measured, "--map",
-                                 map.string(), "--sheet", sheet.string()});
+    const std::filesystem::path page = scratch / "page.html";
+    const Outcome measure = run({"measure", session, "-o", table, "--report", measured, "--html",
+                                 page.string(), "--map", map.string(), "--sheet", sheet.string()});
     ASSERT_EQ(measure.status, 0) << measure.err;
+    EXPECT_NE(read_file(page).find("Dry run session"), std::string::npos);
     EXPECT_NE(read_file(map).find("channel Y: 4 views"), std::string::npos);
     EXPECT_EQ(read_image(sheet).channels.size(), 3u);
     EXPECT_EQ(run({"measure", session, "-o", table, "--map", "map.png"}).status, 1);

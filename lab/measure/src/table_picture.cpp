@@ -37,8 +37,8 @@ std::string table_picture(const Session &session, const SessionMeasurement &meas
         .title = "Reflectance, channel " + measured.channels[channel].name + ": " +
                  std::to_string(views.size()) + " views",
         .key = {{MarkShape::dot, scale_colour(0.7), "measured view, by its BRDF in 1/sr"}},
-        .scale = ColourScale{.low = number_text(least, 2),
-                             .high = number_text(most, 2),
+        .scale = ColourScale{.low = number_text(least, 3),
+                             .high = number_text(most, 3),
                              .words = "1/sr, logarithmic"}};
     add_left_out(session.plan, picture);
     for (const MeasuredView &view : views)
