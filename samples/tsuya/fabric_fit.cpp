@@ -174,6 +174,7 @@ struct FabricFit final : Command {
                     view.row.brdf_per_sr, view.fitted_per_sr);
     }
 
+    // Not finite where one of the two is 0.
     static double log_ratio(double fitted, double measured) {
         return std::log10(fitted / measured);
     }
@@ -204,8 +205,11 @@ struct FabricFit final : Command {
     static void print_view(double theta, double phi, double measured, double fitted) {
         std::cout << std::setprecision(1) << std::setw(9) << theta / kDegree << std::setw(9)
                   << phi / kDegree << std::setprecision(6) << std::setw(17) << measured
-                  << std::setw(15) << fitted << std::setprecision(5) << std::setw(13)
-                  << log_ratio(fitted, measured) << "\n";
+                  << std::setw(15) << fitted << std::setprecision(5) << std::setw(13);
+        if (const double ratio = log_ratio(fitted, measured); std::isfinite(ratio))
+            std::cout << ratio << "\n";
+        else
+            std::cout << "-\n";
     }
 
     static void print_oblique(const Report &report) {

@@ -34,8 +34,7 @@ struct LabPlan final : Command {
         o.option("--symmetry", &symmetry, "S",
                  "symmetry of the cloth, whose repeated views few:STEP leaves out; without it, "
                  "half-turn for few:STEP, none for paper, and that of a table")
-            .one_of({name_of(Symmetry::none), name_of(Symmetry::half_turn),
-                     name_of(Symmetry::orthotropic)});
+            .one_of(symmetry_names());
         o.option("--white", &white, "USE",
                  "white standard: at one view for each direction of light, or at each view")
             .one_of(kWhites);
@@ -54,13 +53,13 @@ struct LabPlan final : Command {
         if (!picture.empty())
             scene::check_output_file(picture, {".svg"});
         const lab::RigFile rig = lab::read_rig_file(rig_file);
-        const lab::Plan plan =
-            lab::make_plan(rig, {.directions = lab::views_named(views, asked_symmetry()),
-                                 .views = views,
-                                 .rig = std::filesystem::absolute(rig_file).lexically_normal(),
-                                 .white = white == kWhites[0] ? lab::WhiteUse::each_light
-                                                              : lab::WhiteUse::each_view,
-                                 .white_every = static_cast<std::size_t>(white_every)});
+        const lab::Plan plan = lab::make_plan(
+            rig,
+            {.directions = lab::views_named(views, symmetry_named(symmetry.value_or(""))),
+             .views = views,
+             .rig = std::filesystem::absolute(rig_file).lexically_normal(),
+             .white = white == kWhites[0] ? lab::WhiteUse::each_light : lab::WhiteUse::each_view,
+             .white_every = static_cast<std::size_t>(white_every)});
         scene::prepare_output_file(output, {".jsonl"});
         lab::write_plan(plan, output);
         if (!picture.empty()) {
@@ -73,13 +72,6 @@ struct LabPlan final : Command {
         else
             print(plan, sum);
         return kDone;
-    }
-
-    std::optional<Symmetry> asked_symmetry() const {
-        for (const Symmetry known : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
-            if (symmetry == name_of(known))
-                return known;
-        return std::nullopt;
     }
 
     /// How many views are left out for each reason, of which the numbers are left out.

@@ -2,6 +2,7 @@
 #include "project/citations.h"
 #include "project/comments.h"
 #include "project/documents.h"
+#include "project/headers.h"
 #include "project/includes.h"
 #include "project/links.h"
 #include "project/words.h"
@@ -49,6 +50,11 @@ TEST(Repository, LinksLeadSomewhere) {
     const Findings findings = check_links(repository(), [](const std::string &path) {
         return std::filesystem::exists(repository_root() / path);
     });
+    EXPECT_TRUE(findings.empty()) << as_text(findings);
+}
+
+TEST(Repository, PagesNameEveryHeader) {
+    const Findings findings = check_headers(repository());
     EXPECT_TRUE(findings.empty()) << as_text(findings);
 }
 
@@ -216,6 +222,20 @@ TEST(Documents, EverythingElseIsFlagged) {
     };
     for (const auto &[announcement, block] : bad)
         EXPECT_EQ(documented(announcement, block).size(), 1u) << announcement << '\n' << block;
+}
+
+TEST(Headers, WithoutALineInThePageAreFlagged) {
+    const auto count = [](const std::string &page) {
+        return check_headers({{"lab/README.md", page},
+                              {"lab/weave/include/tsuya/lab/wif.h", ""},
+                              {"lab/weave/include/tsuya/lab/detail/inside.h", ""},
+                              {"lab/weave/src/own.h", ""}})
+            .size();
+    };
+    EXPECT_EQ(count("| `wif.h` | drafts |"), 0u);
+    EXPECT_EQ(count("| `tsuya/lab/wif.h` | drafts |"), 0u);
+    EXPECT_EQ(count("| `twif.h` | drafts, wif.h |"), 1u);
+    EXPECT_EQ(check_headers({{"lab/include/a.h", ""}}).size(), 1u);
 }
 
 TEST(Links, LeadToFilesAndFolders) {

@@ -73,10 +73,14 @@ class Change {
     }
     void visit(std::monostate &) {}
     template <class T> void visit(std::optional<T> &value) {
-        if (here("there or not"))
-            value = value ? std::nullopt : std::optional<T>(T{});
-        else if (value)
+        if (here("there or not")) {
+            if (value)
+                value.reset();
+            else
+                value.emplace();
+        } else if (value) {
             visit(*value);
+        }
     }
     void visit(Specular &specular) {
         if (here("of another kind"))

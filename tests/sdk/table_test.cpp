@@ -269,7 +269,7 @@ TEST(TableWarnings, RepeatsAndSpikes) {
     EXPECT_FALSE(warns(table, "directions of other rows"));
     table.rows.push_back(table.rows[3]);
     table.rows.back().phi_r += 2 * kPi; // the same direction
-    EXPECT_TRUE(warns(table, "1 rows have the directions of other rows"));
+    EXPECT_TRUE(warns(table, "the directions of 1 row are those of other rows"));
     table.rows.pop_back();
     EXPECT_FALSE(warns(table, "stands alone"));
     table.rows[20].brdf_per_sr = 40;

@@ -7,17 +7,11 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/integer_hash.h"
 
 namespace tsuya::lab {
 
-// [Wellons] lowbias32
-inline std::uint32_t hash(std::uint32_t x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
+using detail::hash;
 
 // [ONeill] PCG-XSH-RR with 64 bits of state; another stream for every seed.
 class Random {

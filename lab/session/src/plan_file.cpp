@@ -12,8 +12,6 @@ constexpr const char *kSchema = "tsuya-plan 1";
 constexpr double kLongest = 86400; // seconds of an exposure
 const std::vector<std::string> kKinds{"cloth", "white", "dark", "trap"};
 const std::vector<std::string> kWhites{"each-light", "each-view"};
-const std::vector<std::string> kSymmetries{name_of(Symmetry::none), name_of(Symmetry::half_turn),
-                                           name_of(Symmetry::orthotropic)};
 
 /// Degrees without the rounding of radians: 45 and not 45.00000000000001.
 double degrees_of(double angle) { return std::round(angle / kDegree * 1e9) / 1e9; }
@@ -65,7 +63,7 @@ PlannedFrame take_frame(JsonLine &line, const std::vector<PlannedFrame> &before)
 void take_head(JsonLine line, Plan &plan) {
     if (const std::string schema = line.text("schema"); schema != kSchema)
         line.fail("the schema is '" + schema + "'", std::string("expected ") + kSchema);
-    plan.symmetry = static_cast<Symmetry>(line.choice("symmetry", kSymmetries));
+    plan.symmetry = static_cast<Symmetry>(line.choice("symmetry", symmetry_names()));
     plan.white = static_cast<WhiteUse>(line.choice("white", kWhites));
     plan.views = line.text("views");
     plan.rig = line.text("rig");

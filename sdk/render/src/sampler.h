@@ -6,16 +6,11 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/integer_hash.h"
+
 namespace tsuya {
 
-inline std::uint32_t hash(std::uint32_t x) {
-    // [Wellons] lowbias32
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
+using detail::hash;
 
 inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
     return hash(a ^ (hash(b) + 0x9e3779b9u + (a << 6) + (a >> 2)));

@@ -108,14 +108,12 @@ class TableReader {
         std::string name = lower_case(value);
         std::replace_if(
             name.begin(), name.end(), [](char c) { return c == '_' || c == ' '; }, '-');
-        for (const Symmetry s : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
-            if (name == name_of(s)) {
-                frame_.symmetry = s;
-                frame_.symmetry_declared = true;
-                return;
-            }
-        const std::array<std::string, 3> known = {"orthotropic", "half-turn", "none"};
-        problem("unknown symmetry '" + value + "'", 1, accepted_names(name, known));
+        if (const auto symmetry = symmetry_named(name)) {
+            frame_.symmetry = *symmetry;
+            frame_.symmetry_declared = true;
+        } else {
+            problem("unknown symmetry '" + value + "'", 1, accepted_names(name, symmetry_names()));
+        }
     }
 
     void read_header_line(std::string_view line) {

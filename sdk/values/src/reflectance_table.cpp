@@ -23,6 +23,8 @@ std::string number_text(double value, int digits) {
     return {text.data(), end.ptr};
 }
 
+constexpr std::array kSymmetries = {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic};
+
 } // namespace
 
 const char *name_of(Symmetry symmetry) {
@@ -35,6 +37,18 @@ const char *name_of(Symmetry symmetry) {
         break;
     }
     return "orthotropic";
+}
+
+std::vector<std::string> symmetry_names() {
+    std::vector<std::string> names;
+    for (const Symmetry symmetry : kSymmetries)
+        names.emplace_back(name_of(symmetry));
+    return names;
+}
+
+std::optional<Symmetry> symmetry_named(std::string_view name) {
+    const auto known = std::ranges::find(kSymmetries, name, name_of);
+    return known == kSymmetries.end() ? std::nullopt : std::optional(*known);
 }
 
 bool ReflectanceTable::has_sigma() const {

@@ -114,11 +114,10 @@ Symmetry read_symmetry(const Section &root) {
     if (!root.has("views") && !root.has("symmetry"))
         return Symmetry::orthotropic;
     const std::string name = root.required_text("symmetry");
-    const std::vector<std::string> known = {"orthotropic", "half-turn", "none"};
-    for (const Symmetry s : {Symmetry::none, Symmetry::half_turn, Symmetry::orthotropic})
-        if (name == name_of(s))
-            return s;
-    root.problem("symmetry", "unknown symmetry '" + name + "'", accepted_names(name, known));
+    if (const auto symmetry = symmetry_named(name))
+        return *symmetry;
+    root.problem("symmetry", "unknown symmetry '" + name + "'",
+                 accepted_names(name, symmetry_names()));
     return Symmetry::orthotropic;
 }
 

@@ -25,6 +25,8 @@ template <class... Parts> std::string text_of(const Parts &...parts) {
     return text.str();
 }
 
+std::string rows_of(std::ptrdiff_t count) { return text_of(count, count == 1 ? " row" : " rows"); }
+
 std::string light_name(const ReflectanceRow &row) {
     return text_of("light at theta_i ", row.theta_i / kDegree, ", phi_i ", row.phi_i / kDegree,
                    " degrees");
@@ -35,19 +37,19 @@ void find_slanting(const ReflectanceTable &table, std::vector<std::string> &foun
         return row.from_above() && row.theta_i > kRounding;
     });
     if (count > 0)
-        found.push_back(text_of("the light of ", count,
-                                " rows is within half a degree of the normal and counts as light "
+        found.push_back(text_of("the light of ", rows_of(count),
+                                " is within half a degree of the normal and counts as light "
                                 "from straight above"));
 }
 
 void find_repeats(const ReflectanceTable &table, std::vector<std::string> &found) {
     std::set<std::array<long long, 4>> known;
-    std::size_t repeats = 0;
+    std::ptrdiff_t repeats = 0;
     for (const ReflectanceRow &row : table.rows)
         repeats += !known.insert(direction_key(row)).second;
     if (repeats > 0)
-        found.push_back(text_of(repeats, " rows have the directions of other rows; the mean of "
-                                         "their values counts"));
+        found.push_back(text_of("the directions of ", rows_of(repeats),
+                                " are those of other rows; the mean of their values counts"));
 }
 
 void find_large_errors(const ReflectanceTable &table, std::vector<std::string> &found) {

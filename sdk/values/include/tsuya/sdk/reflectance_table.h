@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -24,6 +25,12 @@ enum class Symmetry {
 
 /// As in files: `half-turn`.
 const char *name_of(Symmetry symmetry);
+
+/// The names of all symmetries, in the order of their values.
+std::vector<std::string> symmetry_names();
+
+/// The symmetry of a name as in files, or nothing for another name.
+std::optional<Symmetry> symmetry_named(std::string_view name);
 
 /// Light as near as this to the normal, in radians, counts as light from straight above.
 inline constexpr double kNormalLight = 0.5001 * kDegree;
