@@ -22,6 +22,7 @@ namespace {
 struct FabricFit final : Command {
     std::filesystem::path table_file{}, output{};
     std::string name{}, use = "normal";
+    std::string lustre{kLustreNames[0]};
     std::optional<double> f0{};
     bool json = false;
 
@@ -35,6 +36,10 @@ struct FabricFit final : Command {
              "rows that are fitted: normal, those with theta_i = 0; all, for the model yarn the "
              "others too")
             .one_of({"normal", "all"});
+        o.option("--lustre", &lustre, "LUSTRE",
+                 "delustrant in the filaments, as it shows when the cloth is dyed: bright, none; "
+                 "semi-dull; dull")
+            .one_of(std::vector<std::string>(kLustreNames.begin(), kLustreNames.end()));
         o.flag("--json", &json, "print the residuals as JSON");
         o.example("tsuya fabric fit black_satin.csv -o black_satin.fabric.toml");
         o.notes("TABLE.csv has the columns theta_i_deg, phi_i_deg (towards the light), "
@@ -62,6 +67,7 @@ struct FabricFit final : Command {
         Fabric fabric{.name = name.empty() ? table_file.stem().string() : name,
                       .keys = table.keys,
                       .specular = views};
+        fabric.colours.lustre = lustre_named(lustre, "");
         if (dyed)
             fabric.colours.dye = spectrum_of(read, dyed->reflectance);
         Report report{.bard = bard, .channels = body_of(read, dyed)};

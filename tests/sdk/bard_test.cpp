@@ -323,5 +323,25 @@ TEST(Misfits, NameTheViewThatDoesNotFit) {
     EXPECT_NEAR(found[0].phi, 45 * kDegree, 1e-9);
 }
 
+TEST(Misfits, LeaveOutWhatNobodySees) {
+    const auto found = [](double measured) { // a tenth of what is fitted
+        const std::vector<ModelledView> views{
+            {{.theta_r = 0.2, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 0.4, .brdf_per_sr = 1}, 1.001},
+            {{.theta_r = 0.6, .brdf_per_sr = 1}, 0.999},
+            {{.theta_r = 0.8, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 0.9, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 1.0, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 1.1, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 1.2, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 1.3, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 1.4, .brdf_per_sr = 1}, 1},
+            {{.theta_r = 1.5, .brdf_per_sr = measured}, 10 * measured}};
+        return misfits(views).size();
+    };
+    EXPECT_EQ(found(1e-2), 1u);
+    EXPECT_EQ(found(1e-4), 0u);
+}
+
 } // namespace
 } // namespace tsuya::test

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "channel_estimate.h"
@@ -41,6 +43,35 @@ void check(const MeasureSettings &settings, const Session &session) {
     problems.throw_if_any();
 }
 
+/// What the black trap shows of the same light, in DN a second: it lies over the cloth, and has no
+/// contrast. 0 without a trap.
+double stray_light(const SessionLight &light, const DirectionPair &directions) {
+    double sum = 0;
+    int count = 0;
+    for (const ViewLight &trap : light.trap)
+        if (std::abs(trap.directions.theta_i - directions.theta_i) < 1e-6 &&
+            std::abs(trap.directions.phi_i - directions.phi_i) < 1e-6) {
+            sum += trap.colours[0].all.rate;
+            ++count;
+        }
+    return count == 0 ? 0 : sum / count;
+}
+
+/// Squared contrast from pixel to pixel of the cloth's own light.
+struct Sharpness {
+    double value = 0, sigma = 0;
+};
+
+/// Nothing where the cloth is no brighter than stray light.
+std::optional<Sharpness> sharpness_of(const ViewLight &view, const SessionLight &light) {
+    const PatchMean &patch = view.colours[0].middle;
+    const double own = patch.rate - stray_light(light, view.directions);
+    if (own <= 0)
+        return std::nullopt;
+    const double scale = (patch.rate / own) * (patch.rate / own);
+    return Sharpness{patch.sharpness * scale, patch.sharpness_sigma * scale};
+}
+
 /// Views with far less contrast from pixel to pixel than others of the same tilt are out of focus,
 /// or were moved.
 void leave_out_unsharp(SessionLight &light) {
@@ -49,21 +80,24 @@ void leave_out_unsharp(SessionLight &light) {
         return std::lround(view.directions.theta_r / kDegree);
     };
     for (const ViewLight &view : light.cloth)
-        rings[ring_of(view)].push_back(view.colours[0].middle.sharpness);
+        if (const auto sharpness = sharpness_of(view, light))
+            rings[ring_of(view)].push_back(sharpness->value);
     for (auto &[ring, values] : rings)
         std::nth_element(values.begin(),
                          values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                          values.end());
     std::erase_if(light.cloth, [&](const ViewLight &view) {
+        const auto sharpness = sharpness_of(view, light);
+        if (!sharpness)
+            return false;
         const std::vector<double> &values = rings[ring_of(view)];
         const double usual = values[values.size() / 2];
-        const PatchMean &patch = view.colours[0].middle;
         if (usual < kSureContrast ||
-            patch.sharpness + kSureSigmas * patch.sharpness_sigma >= kUnsharpShare * usual)
+            sharpness->value + kSureSigmas * sharpness->sigma >= kUnsharpShare * usual)
             return false;
         light.left_out.push_back({view.view, view.directions, LeftOutReason::unsharp,
                                   "its contrast from pixel to pixel is " +
-                                      number_text(patch.sharpness / usual, 2) + " of the usual"});
+                                      number_text(sharpness->value / usual, 2) + " of the usual"});
         return true;
     });
 }

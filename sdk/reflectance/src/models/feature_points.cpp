@@ -17,14 +17,19 @@ struct Met {
     double measured, fitted, sigma;
 };
 
-// \param residual root mean square of all, log10
-bool is_off(const Met &view, double residual) {
-    constexpr double kTimes = 3, kLeast = 0.1;
+struct Level {
+    double residual; ///< root mean square of all, log10
+    double highest;  ///< of the measured values
+};
+
+bool is_off(const Met &view, const Level &all) {
+    constexpr double kTimes = 3, kLeast = 0.1, kLeastOfHighest = 1e-3;
     if (!(view.measured > 0 && view.fitted > 0))
         return false;
     const double difference = std::abs(view.fitted - view.measured);
-    return log_ratio(view.fitted, view.measured) > kTimes * residual &&
-           difference > kLeast * view.measured && difference > kTimes * view.sigma;
+    return log_ratio(view.fitted, view.measured) > kTimes * all.residual &&
+           difference > kLeast * view.measured && difference > kTimes * view.sigma &&
+           difference > kLeastOfHighest * all.highest;
 }
 
 } // namespace
@@ -60,8 +65,11 @@ double shown_tilt(const Bard &bard) {
 
 std::vector<BardView> misfits(const Bard &bard) {
     std::vector<BardView> found;
+    Level all{.residual = bard.residual(), .highest = 0};
     for (const BardView &view : bard.views())
-        if (is_off({view.brdf_per_sr, view.fitted_per_sr, view.sigma_per_sr}, bard.residual()))
+        all.highest = std::max(all.highest, view.brdf_per_sr);
+    for (const BardView &view : bard.views())
+        if (is_off({view.brdf_per_sr, view.fitted_per_sr, view.sigma_per_sr}, all))
             found.push_back(view);
     std::stable_sort(found.begin(), found.end(), [&](const BardView &a, const BardView &b) {
         return log_ratio(a.fitted_per_sr, a.brdf_per_sr) >
@@ -79,17 +87,18 @@ std::vector<ModelledView> oblique_views(const ReflectanceTable &table, const Brd
 }
 
 std::vector<ModelledView> misfits(std::span<const ModelledView> views) {
-    double squares = 0, count = 0;
+    double squares = 0, count = 0, highest = 0;
     for (const ModelledView &view : views)
         if (view.row.brdf_per_sr > 0 && view.fitted_per_sr > 0) {
+            highest = std::max(highest, view.row.brdf_per_sr);
             const double ratio = log_ratio(view.fitted_per_sr, view.row.brdf_per_sr);
             squares += ratio * ratio;
             count += 1;
         }
-    const double residual = std::sqrt(squares / std::max(count, 1.0));
+    const Level all{.residual = std::sqrt(squares / std::max(count, 1.0)), .highest = highest};
     std::vector<ModelledView> found;
     for (const ModelledView &view : views)
-        if (is_off({view.row.brdf_per_sr, view.fitted_per_sr, view.row.sigma_per_sr}, residual))
+        if (is_off({view.row.brdf_per_sr, view.fitted_per_sr, view.row.sigma_per_sr}, all))
             found.push_back(view);
     std::stable_sort(found.begin(), found.end(), [&](const ModelledView &a, const ModelledView &b) {
         return log_ratio(a.fitted_per_sr, a.row.brdf_per_sr) >

@@ -37,9 +37,10 @@ double facets_of_view(const Bard &bard, double f0, const glm::dvec3 &view);
 /// most 45 degrees; what models need beyond is extrapolated.
 double shown_tilt(const Bard &bard);
 
-/// Views that the surface does not meet: off by more than a tenth and by more than three times both
-/// the root mean square of all and their own standard error; the worst first. The surface bends to
-/// such a view, so that neighbours may be among them.
+/// Views that the surface does not meet: off by more than a tenth, by more than three times both
+/// the root mean square of all and their own standard error, and by more than a thousandth of the
+/// highest value measured; the worst first. The surface bends to such a view, so that neighbours
+/// may be among them.
 std::vector<BardView> misfits(const Bard &bard);
 
 /// A measured view under any light beside what a model has there.
