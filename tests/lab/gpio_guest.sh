@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs inside the guest of run-with-gpio: lamp and shutter of a real kernel device.
-# $1: the program gpio_pulses, $2: gpio_watch, $3: tsuya. Ends with 0 and "gpio: all N checks passed", or with 1.
+# Runs inside the guest of gpio_bed/run: lamp and shutter of a real kernel device.
+# $1: the program gpio_pulses, $2: gpio_watch, $3: tsuya, may be left out. Ends with 0 and "gpio: all N checks passed", or with 1.
 pulses=$1
 watch=$2
 tsuya=$3
@@ -45,7 +45,8 @@ within() { # within LINE SINCE START SECONDS: driven off so soon after the start
 # The processes whose parent is $1.
 children_of() { grep -l "^PPid:[[:space:]]*$1$" /proc/[0-9]*/status 2>/dev/null | cut -d/ -f3; }
 start_long_pulse() { # a pulse of ten minutes in the background, as $program with the worker $worker
-    since=$(trace_length)
+    echo >/sys/kernel/tracing/trace # a short trace is read quickly
+    since=0
     setsid "$pulses" gpiochip0 shutter lamp 600000 700000 5 >said 2>&1 &
     program=$!
     sleep 0.3 # looking at once would take time of the opening on the one processor
@@ -219,51 +220,63 @@ run gpiochip0 shutter lamp 20 100 1 low
 check "active low: off is 1 on the wire" was_driven lamp "$since" "1 0 1"
 
 # The commands of the program.
-"$tsuya" lab lines >said 2>&1
-check "lab lines ends with status 0" [ $? = 0 ]
-cat said
-check "lab lines names a line and its direction" says '^gpiochip0  board  0  .*put  *lamp'
-check "lab lines names who holds a line" says '^gpiochip0 .* held$'
-"$tsuya" lab lines --json >said
-check "lab lines --json names the other chip" says '"label": "spare"'
-since=$(trace_length)
-"$tsuya" lab pulse --line shutter --lamp-line lamp --lamp-active-low --count 3 >said 2>&1
-check "lab pulse ends with status 0" [ $? = 0 ]
-check "lab pulse tells the mean width" says 'mean width 20\.0'
-check "lab pulse: each line has its own level" was_driven lamp "$since" "1 0 1"
-check "lab pulse: the shutter, too" was_driven shutter "$since" "0 1 0 1 0 1 0"
-twice_off=0
-for signal in INT TERM HUP QUIT TSTP INT INT INT INT INT; do
+check_commands() {
+    "$tsuya" lab lines >said 2>&1
+    check "lab lines ends with status 0" [ $? = 0 ]
+    cat said
+    check "lab lines names a line and its direction" says '^gpiochip0  board  0  .*put  *lamp'
+    check "lab lines names who holds a line" says '^gpiochip0 .* held$'
+    "$tsuya" lab lines --json >said
+    check "lab lines --json names the other chip" says '"label": "spare"'
     since=$(trace_length)
-    setsid "$tsuya" lab pulse --line shutter --lamp-line lamp --width-ms 600000 \
-        --period-ms 700000 >said 2>&1 &
+    "$tsuya" lab pulse --line shutter --lamp-line lamp --lamp-active-low --count 3 >said 2>&1
+    check "lab pulse ends with status 0" [ $? = 0 ]
+    check "lab pulse tells the mean width" says 'mean width 20\.0'
+    check "lab pulse: each line has its own level" was_driven lamp "$since" "1 0 1"
+    check "lab pulse: the shutter, too" was_driven shutter "$since" "0 1 0 1 0 1 0"
+    twice_off=0
+    for signal in INT TERM HUP QUIT TSTP INT INT INT INT INT; do
+        echo >/sys/kernel/tracing/trace
+        since=0
+        setsid "$tsuya" lab pulse --line shutter --lamp-line lamp --width-ms 600000 \
+            --period-ms 700000 >said 2>&1 &
+        program=$!
+        sleep 0.5
+        await_level shutter 1
+        kill -s "$signal" "$program"
+        kill -s INT "$program"
+        wait "$program"
+        [ $? = 3 ] && says 'stopped after 0 of 5' && last_driven_off lamp "$since" &&
+            last_driven_off shutter "$since" && twice_off=$((twice_off + 1))
+    done
+    check "lab pulse: two signals leave all off with status 3, 10 times" [ "$twice_off" = 10 ]
+    mkfifo progress
+    sleep 100000 <progress &
+    reader=$!
+    head -c 65536 /dev/zero >progress
+    since=$(trace_length)
+    "$tsuya" --progress plain lab pulse --line shutter --lamp-line lamp --count 5 >out 2>progress &
     program=$!
-    sleep 0.5
-    await_level shutter 1
-    kill -s "$signal" "$program"
+    sleep 5
+    check "lab pulse: a full pipe holds up no pulse" was_driven shutter "$since" "0 1 0 1 0 1 0 1 0 1 0"
+    check "lab pulse: a full pipe holds no lit lamp" was_driven lamp "$since" "0 1 0"
     kill -s INT "$program"
     wait "$program"
-    [ $? = 3 ] && says 'stopped after 0 of 5' && last_driven_off lamp "$since" &&
-        last_driven_off shutter "$since" && twice_off=$((twice_off + 1))
-done
-check "lab pulse: two signals leave all off with status 3, 10 times" [ "$twice_off" = 10 ]
-mkfifo progress
-sleep 100000 <progress &
-reader=$!
-head -c 65536 /dev/zero >progress
-since=$(trace_length)
-"$tsuya" --progress plain lab pulse --line shutter --lamp-line lamp --count 5 >out 2>progress &
-program=$!
-sleep 5
-check "lab pulse: a full pipe holds up no pulse" was_driven shutter "$since" "0 1 0 1 0 1 0 1 0 1 0"
-check "lab pulse: a full pipe holds no lit lamp" was_driven lamp "$since" "0 1 0"
-kill -s INT "$program"
-wait "$program"
-check "lab pulse: a signal ends it when the lines are let go" [ $? = 3 ]
-kill "$reader"
-wait "$reader"
-"$tsuya" --progress plain lab pulse --line shutter --count 3 >said 2>&-
-check "lab pulse: a closed stderr is no error" [ $? = 0 ]
+    check "lab pulse: a signal ends it when the lines are let go" [ $? = 3 ]
+    kill "$reader"
+    wait "$reader"
+    "$tsuya" --progress plain lab pulse --line shutter --count 3 >said 2>&-
+    check "lab pulse: a closed stderr is no error" [ $? = 0 ]
+    su stranger -s /bin/sh -c "$tsuya lab lines" >said 2>&1
+    check "a stranger may not see the lines" [ $? != 0 ]
+    check "a stranger is told the rule" says 'SUBSYSTEM=="gpio"'
+}
+[ -z "$tsuya" ] || check_commands
+
+# A user outside the device's group is told which group it is.
+su stranger -s /bin/sh -c "cd /tmp; $pulses gpiochip0 shutter lamp 20 100 1" >said 2>&1
+check "a stranger may not drive the lines" [ $? = 1 ]
+check "a stranger is told the group" says 'Permission denied; a user of the group'
 
 # The chip is unplugged: noticed at once, not at the next edge.
 "$watch" gpiochip1 twice 100000 >watched 2>&1 &
