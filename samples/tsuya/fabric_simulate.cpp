@@ -14,6 +14,7 @@
 #include "tsuya/lab/goniometer.h"
 #include "tsuya/lab/weave_geometry.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/reflectance_file.h"
 #include "weave_name.h"
 
@@ -91,6 +92,8 @@ struct FabricSimulate final : Command {
             lab::build_filaments(weave, {.wavelength_nm = wavelength_nm});
         lab::Measurement measured = lab::measure(repeat, directions, settings, console.progress());
         add_keys(measured, weave);
+        refuse_nothing(measured);
+        warn_of_unmeasured(measured, console);
         write_reflectance_table(measured.table, output);
         json ? print_json(measured) : print_text(measured);
         if (!measured.interrupted) {
@@ -128,6 +131,25 @@ struct FabricSimulate final : Command {
         if (part != "all")
             text << "; " << part << " part";
         keys["provenance"] = text.str();
+    }
+
+    void refuse_nothing(const lab::Measurement &measured) const {
+        if (!measured.table.rows.empty())
+            return;
+        if (measured.interrupted)
+            throw Interrupted("interrupted; --resume goes on from " + settings.checkpoint.string());
+        throw Error({"no direction of light got a photon", "--time", "expected more seconds"});
+    }
+
+    /// Where the time was over, or the run was stopped, before a light had its turn.
+    static void warn_of_unmeasured(const lab::Measurement &measured, Console &console) {
+        const auto without = static_cast<std::size_t>(
+            std::count_if(measured.lights.begin(), measured.lights.end(),
+                          [](const lab::LightReport &light) { return light.photons == 0; }));
+        if (without > 0)
+            console.warning({detail::counted(without, "direction") +
+                                 " of light got no photon and is not in the table",
+                             "", "expected a longer --time, or --resume"});
     }
 
     static double rate(const lab::Measurement &measured) {

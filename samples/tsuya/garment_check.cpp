@@ -11,9 +11,12 @@
 #include "tsuya/garment/check.h"
 #include "tsuya/garment/garment.h"
 #include "tsuya/garment/mesh_file.h"
+#include "tsuya/sdk/detail/counted.h"
 
 namespace tsuya::program {
 namespace {
+
+using detail::counted;
 
 // [doc:command]
 struct GarmentCheck final : Command {
@@ -24,7 +27,7 @@ struct GarmentCheck final : Command {
 
     void options(Options &o) override {
         o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
-        o.option("--unit", &unit, "UNIT", "length unit of the mesh: m, dm, cm, mm, in");
+        add_unit(o, unit, "length unit of the mesh");
         add_sewing_tolerance(o, seams.tolerance);
         o.flag("--json", &json, "print the report as JSON");
         o.flag("--strict", &strict, "exit status 4 where there is a warning");
@@ -51,12 +54,14 @@ struct GarmentCheck final : Command {
 
     void print(const garment::Report &r) const {
         const glm::dvec3 size = r.upper - r.lower;
-        std::cout << mesh.string() << "\n  " << r.faces << " faces (" << r.triangles
-                  << " triangles, " << r.quads << " quads, " << r.ngons << " larger), "
-                  << r.vertices << " vertices, " << r.uvs << " UVs\n  " << r.panels << " panels, "
-                  << r.parts << " parts after joining " << r.parts_before << ", "
-                  << r.openings.size() << " openings\n  " << size.x << " x " << size.y << " x "
-                  << size.z << " m, area " << r.area << " m2\n";
+        std::cout << mesh.string() << "\n  " << counted(r.faces, "face") << " ("
+                  << counted(r.triangles, "triangle") << ", " << counted(r.quads, "quad") << ", "
+                  << r.ngons << " larger), " << r.vertices
+                  << (r.vertices == 1 ? " vertex, " : " vertices, ") << counted(r.uvs, "UV")
+                  << "\n  " << (r.panels == 0 ? "no panels" : counted(r.panels, "panel")) << ", "
+                  << counted(r.parts, "part") << " after joining " << r.parts_before << ", "
+                  << counted(r.openings.size(), "opening") << "\n  " << size.x << " x " << size.y
+                  << " x " << size.z << " m, area " << r.area << " m2\n";
         print_cloth(r);
         for (const garment::Finding &f : r.findings)
             std::cout << (f.severity == garment::Severity::warning ? "warning " : "note ") << f.key
@@ -79,7 +84,7 @@ struct GarmentCheck final : Command {
         line("warp (v):", r.metres_per_uv_warp, 1, "m a unit of UV");
         line("between warp and weft:", r.warp_weft_angle, degrees_of(1), "degrees");
         for (const garment::PanelReport &p : r.panel)
-            std::cout << "  panel " << p.name << ": " << p.faces << " faces, " << p.area
+            std::cout << "  panel " << p.name << ": " << counted(p.faces, "face") << ", " << p.area
                       << " m2, warp " << std::round(degrees_of(p.warp_to_vertical))
                       << " degrees from the vertical\n";
     }

@@ -30,7 +30,7 @@ struct GarmentSubdivide final : Command {
                  "the triangles; a PLY has warp and weft, too")
             .required()
             .result();
-        o.option("--unit", &unit, "UNIT", "length unit of the mesh: m, dm, cm, mm, in");
+        add_unit(o, unit, "length unit of the mesh");
         const Option &levels =
             o.option("--level", &level, "N", "level of subdivision: each edge is cut into 2^N")
                 .range(0, 8);

@@ -12,6 +12,7 @@
 #include "tsuya/lab/session_pictures.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/file.h"
 
 namespace tsuya::program {
@@ -197,7 +198,7 @@ struct LabMeasure final : Command {
     }
 
     static void print(const lab::SessionMeasurement &measured) {
-        std::cout << measured.channels[0].views.size() << " views measured\n";
+        std::cout << detail::counted(measured.channels[0].views.size(), "view") << " measured\n";
         for (const lab::LeftOutView &view : measured.left_out)
             std::cout << "view " << view.view << " left out, " << lab::name_of(view.reason) << ": "
                       << view.detail << "\n";

@@ -9,6 +9,7 @@
 #include "tsuya/lab/planning.h"
 #include "tsuya/lab/session_pictures.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/file.h"
 
 namespace tsuya::program {
@@ -90,10 +91,11 @@ struct LabPlan final : Command {
     }
 
     void print(const lab::Plan &plan, const lab::PlanEstimate &sum) const {
-        std::cout << sum.frames << " frames of " << sum.views << " views:";
+        std::cout << detail::counted(sum.frames, "frame") << " of "
+                  << detail::counted(sum.views, "view") << ":";
         for (const auto &[kind, count] : kinds(plan))
             std::cout << " " << kind << " " << count;
-        std::cout << "\n" << plan.left_out.size() << " views left out:";
+        std::cout << "\n" << detail::counted(plan.left_out.size(), "view") << " left out:";
         for (const auto &[reason, count] : reasons(plan))
             std::cout << " " << reason << " " << count;
         std::cout << "\nmoves:";

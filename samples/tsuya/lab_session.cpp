@@ -14,6 +14,7 @@
 #include "tsuya/lab/session_job.h"
 #include "tsuya/lab/supervisor.h"
 #include "tsuya/lab/virtual_camera.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/fabric.h"
 
 namespace tsuya::program {
@@ -123,7 +124,7 @@ Status SessionOptions::run(const std::filesystem::path &folder, Console &console
                          .text()
                   << "\n";
     else
-        std::cout << done.counted << " of " << done.planned << " frames\n"
+        std::cout << done.counted << " of " << detail::counted(done.planned, "frame") << "\n"
                   << folder.string() << "\n";
     return done.missing() == 0 ? kDone : kCheckFailed;
 }

@@ -6,9 +6,12 @@
 #include "command.h"
 #include "json.h"
 #include "tsuya/lab/session_status.h"
+#include "tsuya/sdk/detail/counted.h"
 
 namespace tsuya::program {
 namespace {
+
+using detail::counted;
 
 struct LabStatus final : Command {
     std::filesystem::path folder{};
@@ -30,11 +33,12 @@ struct LabStatus final : Command {
     }
 
     static void print(const lab::SessionStatus &status) {
-        std::cout << status.counted << " of " << status.planned << " frames, " << status.rejected
-                  << " pictures rejected, " << status.runs << " runs\n"
+        std::cout << status.counted << " of " << counted(status.planned, "frame") << ", "
+                  << counted(status.rejected, "picture") << " rejected, "
+                  << counted(status.runs, "run") << "\n"
                   << (status.running.empty() ? "not running" : "run by process " + status.running)
                   << ", last event " << (status.last.empty() ? "none" : status.last) << "\n"
-                  << "lamp " << lamp_of(status) << ", " << status.strikes << " strikes, "
+                  << "lamp " << lamp_of(status) << ", " << counted(status.strikes, "strike") << ", "
                   << std::fixed << std::setprecision(2) << status.lamp_hours << " hours\n";
         if (status.latched)
             std::cout << "fault to be acknowledged: " << *status.latched << "\n";

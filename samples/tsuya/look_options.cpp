@@ -28,6 +28,10 @@ void add_sewing_tolerance(Options &options, double &metres) {
         .range(0, 1);
 }
 
+void add_unit(Options &options, std::string &unit, std::string help) {
+    options.option("--unit", &unit, "UNIT", std::move(help)).one_of({"m", "dm", "cm", "mm", "in"});
+}
+
 void add_threads(Options &options, int &threads) {
     options.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
         .range(0, 4096);

@@ -23,6 +23,9 @@ struct LookOptions {
 /// `--sewing-tolerance`, see garment::SeamOptions; shows the default that `metres` has.
 void add_sewing_tolerance(Options &options, double &metres);
 
+/// `--unit`. \param help what has the unit
+void add_unit(Options &options, std::string &unit, std::string help);
+
 /// `--threads`, 0 for all processors
 void add_threads(Options &options, int &threads);
 

@@ -101,6 +101,8 @@ template <class T> T value_of(const Option &option, const std::string &word) {
         check_choice(option, std::to_string(value));
         return value;
     } else {
+        if (word.empty())
+            throw WrongCall({"a value is empty", name_of(option), "expected " + option.value});
         check_choice(option, word);
         return T(word);
     }
@@ -173,6 +175,8 @@ void check_result(const Option &result, const std::deque<Option> &all) {
 } // namespace
 
 std::string name_of(const Option &option) {
+    if (!option.called.empty())
+        return option.called;
     return option.names.empty() ? option.value
                                 : option.names.substr(option.names.find_last_of(',') + 1);
 }

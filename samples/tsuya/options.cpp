@@ -22,6 +22,17 @@ struct Node {
     Options options{};
 };
 
+/// All values of the words, the empty ones, too.
+std::vector<std::string> split_at_commas(const std::vector<std::string> &words) {
+    std::vector<std::string> values;
+    for (const std::string &word : words)
+        for (std::size_t begin = 0, end = 0; begin <= word.size(); begin = end + 1) {
+            end = std::min(word.find(',', begin), word.size());
+            values.push_back(word.substr(begin, end - begin));
+        }
+    return values;
+}
+
 void declare(CLI::App &app, Option &option, const std::string &name) {
     if (is_flag(option)) {
         app.add_flag_function(name, [&option](std::int64_t times) { option.given = times > 0; });
@@ -29,7 +40,7 @@ void declare(CLI::App &app, Option &option, const std::string &name) {
     }
     CLI::Option *const made = app.add_option(name, [&option](const CLI::results_t &words) {
         option.given = true;
-        option.words = words;
+        option.words = option.has_commas ? split_at_commas(words) : words;
         return true;
     });
     made->type_name(option.value);
@@ -37,8 +48,17 @@ void declare(CLI::App &app, Option &option, const std::string &name) {
     if (is_list(option))
         made->expected(1, CLI::detail::expected_max_vector_size)
             ->allow_extra_args(option.has_words);
-    if (option.has_commas)
-        made->delimiter(',');
+}
+
+/// Notes the long name by which an option with several was called, for messages about it.
+void note_called_name(Option &option, int argc, const char *const *argv) {
+    for (std::size_t begin = 0, end = 0; end < option.names.size(); begin = end + 1) {
+        end = std::min(option.names.find(',', begin), option.names.size());
+        const std::string name = option.names.substr(begin, end - begin);
+        for (int i = 1; name.starts_with("--") && i < argc; ++i)
+            if (argv[i] == name || std::string_view(argv[i]).starts_with(name + "="))
+                option.called = name;
+    }
 }
 
 void declare(CLI::App &app, Options &options) {
@@ -88,6 +108,8 @@ class Parser {
         }
         Node &node = called();
         refuse_leftovers(node);
+        for (Option &option : node.options.all())
+            note_called_name(option, argc, argv);
         nodes_.front().options.fill_fields();
         node.options.fill_fields();
         return {.command = std::move(node.command), .progress = progress_};

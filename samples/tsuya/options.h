@@ -62,6 +62,7 @@ struct Option {
 
     bool given = false;
     std::vector<std::string> words{};
+    std::string called{}; ///< the long name in the call, of several; may be empty
 
     bool is_required = false, has_commas = false, has_words = false, is_open = false;
     bool is_result = false, may_be_file = false;

@@ -10,6 +10,7 @@
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/scene_file.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
 
@@ -117,8 +118,9 @@ struct Render final : Command {
     static void explain_plan(const scene::BuiltScene &built, const RenderSettings &settings) {
         std::cout << explain(plan(built.scene, settings));
         for (const scene::MeshReport &mesh : built.reports)
-            std::cout << mesh.report.limit_triangles << " triangles of " << mesh.report.faces
-                      << " faces: " << mesh.mesh.string() << "\n";
+            std::cout << detail::counted(mesh.report.limit_triangles, "triangle") << " of "
+                      << detail::counted(mesh.report.faces, "face") << ": " << mesh.mesh.string()
+                      << "\n";
     }
 
     RenderSettings settings_of(const scene::SceneFile &file) const {

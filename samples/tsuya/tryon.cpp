@@ -45,7 +45,7 @@ struct TryOn final : Command {
                "take the garment's morph targets (glTF) as frames, too")
             .needs(mesh);
         o.option("--body", &job.body, "MESH", "mesh that wears the garment");
-        o.option("--unit", &job.unit, "UNIT", "length unit of the meshes: m, dm, cm, mm, in");
+        add_unit(o, job.unit, "length unit of the meshes");
         const Option &level =
             o.option("--level", &job.level, "N", "level of subdivision: each edge is cut into 2^N")
                 .range(0, 8);

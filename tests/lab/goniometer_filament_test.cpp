@@ -160,7 +160,7 @@ TEST(ClearCylinder, AbsorbsAlongTheChord) {
 /// Largest |z| of pairs of directions there and back, to 75 degrees.
 double reciprocity_z(const FilamentRepeat &repeat, Normals normals, double factor = 1) {
     constexpr int kPairs = 12, kBatches = 6;
-    const FilamentScene scene(FilamentCell(repeat, 0.02, 24));
+    const FilamentScene scene(FilamentCell(repeat, 0.02, 24), {});
     std::vector<FilamentMatter> matter;
     for (const FilamentOptics &optics : repeat.optics)
         matter.emplace_back(optics, normals);

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "lab/filament_samples.h"
+#include "tsuya/lab/weave_geometry.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -81,6 +82,31 @@ TEST(Goniometer, DoesNotDependOnTheNumberOfThreads) {
               measure(close_layers({}), two_lights(), settings).lights[0].reflected);
 }
 
+TEST(Goniometer, StopEndsTheBuildingOfTheBvh) {
+    std::atomic<bool> stop{false};
+    bool traced = false;
+    const Progress progress{.report =
+                                [&](std::string_view stage, double) {
+                                    traced = traced || stage != "prepare";
+                                    stop = true;
+                                },
+                            .stop = &stop};
+    EXPECT_THROW(measure(build_filaments(weave("polyester taffeta")), two_lights(), few_photons(40),
+                         progress),
+                 Interrupted);
+    EXPECT_FALSE(traced);
+}
+
+// Nothing is known of it: 0 would be black cloth.
+TEST(Goniometer, ALightWithoutPhotonsIsNotInTheTable) {
+    GoniometerSettings settings = few_photons(1);
+    settings.seconds = 1e-9;
+    const Measurement m = measure(close_layers({}), two_lights(), settings);
+    EXPECT_EQ(m.lights.size(), 2u);
+    EXPECT_EQ(m.photons, 0u);
+    EXPECT_TRUE(m.table.rows.empty());
+}
+
 TEST(Goniometer, GoesOnWhereItWasStopped) {
     GoniometerSettings settings = few_photons(40);
     const Measurement whole = measure(close_layers({}), two_lights(), settings);
@@ -91,7 +117,8 @@ TEST(Goniometer, GoesOnWhereItWasStopped) {
     settings.resume = true;
     std::atomic<bool> stop{false};
     int rounds = 0;
-    const Progress progress{.report = [&](std::string_view, double) { stop = ++rounds == 2; },
+    const Progress progress{.report = [&](std::string_view stage,
+                                          double) { stop = stage != "prepare" && ++rounds == 2; },
                             .stop = &stop};
     const Measurement part = measure(close_layers({}), two_lights(), settings, progress);
     EXPECT_TRUE(part.interrupted);

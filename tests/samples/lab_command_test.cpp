@@ -235,7 +235,7 @@ TEST(LabCommands, ResetNeedsAFaultAndAReason) {
     };
     EXPECT_EQ(reset("looked").status, 1);
     lab::latch_fault(lab::fault_log_of(rig), "the door", 1);
-    EXPECT_EQ(reset("").status, 1);
+    EXPECT_EQ(reset("").status, 2);
     const Outcome done = reset("closed it");
     EXPECT_EQ(done.status, 0);
     EXPECT_EQ(done.out, "acknowledged: the door\n");

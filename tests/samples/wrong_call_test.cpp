@@ -158,5 +158,38 @@ TEST(Signals, OtherCommandsOutliveSigusr1) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
+TEST(WrongCall, AGarmentWithoutUvIsNamedWithTheOptionThatHelps) {
+    const Scratch scratch;
+    const std::string mesh =
+        scratch.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").string();
+    const Outcome outcome =
+        run(scratch, {"tryon", "--garment", mesh, "-o", (scratch / "out").string()});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find(mesh + ": the mesh has no UV"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("(--grain)"), std::string::npos) << outcome.err;
+}
+
+TEST(WrongCall, ValuesThatAreNoneAreRefusedByTheNameThatWasTyped) {
+    const Scratch scratch;
+    const std::string out = (scratch / "out").string();
+    const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
+        {{"--lamps", "D65,,A"}, "--lamps: a value is empty; expected A,B,..."},
+        {{"--lamps", "D65,"}, "--lamps: a value is empty; expected A,B,..."},
+        {{"--lamps", ""}, "--lamps: a value is empty; expected A,B,..."},
+        {{"--fabric", ""}, "--fabric: a value is empty; expected FABRIC"},
+        {{"--spp", "1e1.5"}, "--spp: '1e1.5' is not a number; expected a whole number from 1"},
+        {{"--samples=0"}, "--samples: '0' is out of range"},
+        {{"--spp", "2", "--error", "0.1"}, "--spp: it cannot be given with --error"},
+        {{"--grain", "nan"}, "--grain: 'nan' is no direction of the warp"},
+        {{"--unit", "mile"}, "--unit: 'mile' is unknown; expected one of: m, dm, cm, mm, in"}};
+    for (auto [call, says] : calls) {
+        call.insert(call.begin(), {"tryon", "-o", out});
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+        EXPECT_FALSE(fs::exists(out));
+    }
+}
+
 } // namespace
 } // namespace tsuya::program

@@ -172,12 +172,12 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
         report.repaired_area_share = degenerate_share(mesh, valid);
         if (report.repaired_area_share > options.max_degenerate_area) {
             if (!options.invented_grain)
-                throw Error({std::to_string(100.0 * report.repaired_area_share) +
-                                 " % of the area has no usable UV",
-                             where,
-                             "expected at most " +
-                                 std::to_string(100.0 * options.max_degenerate_area) +
-                                 " %, or a stated direction of the grain"});
+                throw Error(
+                    {std::to_string(100.0 * report.repaired_area_share) +
+                         " % of the area has no usable UV",
+                     where,
+                     "expected at most " + std::to_string(100.0 * options.max_degenerate_area) +
+                         " %, or a stated direction of the warp (--grain, invented_grain_deg)"});
             invent_frames(mesh, *options.invented_grain, s, progress);
             return;
         }

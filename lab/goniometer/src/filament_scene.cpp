@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include <embree3/rtcore.h>
 
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/bvh_monitor.h"
 #include "tsuya/sdk/detail/embree_ray.h"
 #include "tsuya/sdk/error.h"
 
@@ -53,7 +53,7 @@ struct FilamentScene::State {
     }
 };
 
-FilamentScene::FilamentScene(FilamentCell cell)
+FilamentScene::FilamentScene(FilamentCell cell, const Progress &progress)
     : cell_(std::move(cell)), state_(std::make_unique<State>()) {
     state_->device = rtcNewDevice(nullptr);
     if (!state_->device)
@@ -73,11 +73,11 @@ FilamentScene::FilamentScene(FilamentCell cell)
         share(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, t.triangle);
         state_->attach(geometry, kTubes);
     }
+    tsuya::detail::BvhMonitor monitor(progress);
+    rtcSetSceneProgressMonitorFunction(state_->scene, tsuya::detail::BvhMonitor::ask, &monitor);
     rtcCommitScene(state_->scene);
-    if (const RTCError error = rtcGetDeviceError(state_->device); error != RTC_ERROR_NONE)
-        throw Error({"Embree cannot build the acceleration structure (error " +
-                         std::to_string(static_cast<int>(error)) + ")",
-                     "", "expected enough memory for the filaments"});
+    rtcSetSceneProgressMonitorFunction(state_->scene, nullptr, nullptr);
+    monitor.check(rtcGetDeviceError(state_->device));
 }
 
 FilamentScene::~FilamentScene() = default;

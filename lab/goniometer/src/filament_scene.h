@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "filament_cell.h"
+#include "tsuya/sdk/progress.h"
 
 namespace tsuya::lab {
 
@@ -30,7 +31,8 @@ enum class Fate { hit, above, below, lost };
 
 class FilamentScene {
   public:
-    explicit FilamentScene(FilamentCell cell);
+    // Throws Interrupted where `progress` is stopped.
+    FilamentScene(FilamentCell cell, const Progress &progress);
     ~FilamentScene();
     FilamentScene(const FilamentScene &) = delete;
     FilamentScene &operator=(const FilamentScene &) = delete;

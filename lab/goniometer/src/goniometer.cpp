@@ -102,7 +102,8 @@ class Goniometer {
     Goniometer(const FilamentRepeat &repeat, const Directions &directions,
                const GoniometerSettings &settings, const Progress &progress)
         : repeat_(repeat), directions_(directions), settings_(settings), progress_(progress),
-          scene_(FilamentCell(repeat, settings.turn_per_segment, settings.section_points)) {
+          scene_(FilamentCell(repeat, settings.turn_per_segment, settings.section_points),
+                 progress) {
         for (const FilamentOptics &optics : repeat.optics)
             matter_.emplace_back(optics);
         group_by_light();
@@ -253,14 +254,15 @@ Measurement Goniometer::run() {
 
 void Goniometer::report(Measurement &result) const {
     result.table.symmetry = directions_.symmetry;
-    result.table.rows.resize(directions_.pairs.size());
+    std::vector<ReflectanceRow> rows(directions_.pairs.size());
+    std::vector<bool> measured(rows.size());
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         const LightSums &light = lights_[g];
         for (std::size_t k = 0; k < groups_[g].rows.size(); ++k) {
             const DirectionPair &p = directions_.pairs[groups_[g].rows[k]];
             const Estimate e = estimate(light.sums.value[k], light.sums.square[k], light.photons());
-            result.table.rows[groups_[g].rows[k]] = {p.theta_i, p.phi_i, p.theta_r,
-                                                     p.phi_r,   e.mean,  e.sigma};
+            rows[groups_[g].rows[k]] = {p.theta_i, p.phi_i, p.theta_r, p.phi_r, e.mean, e.sigma};
+            measured[groups_[g].rows[k]] = light.batches > 0;
         }
         const Estimate up =
             estimate(light.sums.reflected, light.sums.reflected_square, light.photons());
@@ -269,6 +271,9 @@ void Goniometer::report(Measurement &result) const {
         result.lights.push_back({groups_[g].theta, groups_[g].phi, light.photons(), up.mean,
                                  up.sigma, down.mean, down.sigma, light.relative_error()});
     }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (measured[i])
+            result.table.rows.push_back(rows[i]);
     std::uint64_t most = 0;
     for (const LightSums &light : lights_)
         most = std::max(most, light.photons());

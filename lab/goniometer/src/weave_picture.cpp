@@ -61,17 +61,17 @@ void put(Image &image, int x, int y, const glm::vec3 &color) {
 
 class Painter {
   public:
-    Painter(const Weave &weave, const WeavePictureSettings &settings)
-        : Painter(weave, settings, build_filaments(weave, settings.geometry)) {}
+    Painter(const Weave &weave, const WeavePictureSettings &settings, const Progress &progress)
+        : Painter(weave, settings, build_filaments(weave, settings.geometry), progress) {}
 
     glm::vec3 pixel(int x, int y) const;
 
   private:
-    Painter(const Weave &weave, const WeavePictureSettings &settings, const FilamentRepeat &repeat)
+    Painter(const Weave &weave, const WeavePictureSettings &settings, const FilamentRepeat &repeat,
+            const Progress &progress)
         : settings_(settings),
-          scene_(FilamentCell(repeat, kTurnPerSegment, kSectionPoints)), color_{
-                                                                             color_of(weave.warp),
-                                                                             color_of(weave.weft)} {
+          scene_(FilamentCell(repeat, kTurnPerSegment, kSectionPoints), progress),
+          color_{color_of(weave.warp), color_of(weave.weft)} {
         double radius = 0;
         for (const Filament &f : repeat.filaments)
             radius += f.radius;
@@ -189,7 +189,7 @@ double scale_bar(const Weave &weave, const WeavePictureSettings &settings) {
 Image weave_picture(const Weave &weave, const WeavePictureSettings &settings,
                     const Progress &progress) {
     check(settings);
-    const Painter painter(weave, settings);
+    const Painter painter(weave, settings, progress);
     Image image = Image::make(settings.width, settings.height, {"R", "G", "B"});
     tsuya::detail::run_with_threads(settings.threads, [&] {
         for (int first = 0; first < image.height; first += kBand) {

@@ -88,7 +88,7 @@ double largest_value(const BrdfFunction &f, const glm::dvec3 &to_light) {
     double most = 0;
     for (double theta = 0; theta < 90; ++theta)
         for (double phi = 0; phi < 360; ++phi) {
-            const glm::dvec3 to_viewer = direction(theta * kDegree, phi * kDegree);
+            const glm::dvec3 to_viewer = direction_of(theta * kDegree, phi * kDegree);
             most = std::max(most, f(to_light, to_viewer) * to_viewer.z);
         }
     return most;
@@ -157,7 +157,7 @@ void plot_bodies(const Fabric &fabric, const std::string &model,
         left += 0.325;
         Largest largest{};
         for (std::size_t i = 0; i < kThetaDeg.size(); ++i) {
-            const glm::dvec3 to_light = direction(kThetaDeg[i] * kDegree, plane.phi());
+            const glm::dvec3 to_light = direction_of(kThetaDeg[i] * kDegree, plane.phi());
             largest[i] = largest_value(f, to_light);
             for (const Projection &seen : kProjections)
                 blocks += block(block_name(plane, seen, kThetaDeg[i]),

@@ -30,9 +30,9 @@ std::string block_name(const char *kind, const Plane &plane, int theta_i) {
 // theta_r in the plane of incidence: > 0 beyond the normal, where the mirror direction is.
 std::string curve_of(const BrdfFunction &f, const Plane &plane, int theta_i, double &most) {
     std::string lines;
-    const glm::dvec3 to_light = direction(theta_i * kDegree, plane.phi());
+    const glm::dvec3 to_light = direction_of(theta_i * kDegree, plane.phi());
     for (double theta = -90 + kCurveStep; theta < 90; theta += kCurveStep) {
-        const glm::dvec3 to_viewer = direction(-theta * kDegree, plane.phi());
+        const glm::dvec3 to_viewer = direction_of(-theta * kDegree, plane.phi());
         const double value = f(to_light, to_viewer) * to_viewer.z;
         most = std::max(most, value);
         lines += number(theta) + " " + number(value) + "\n";
@@ -125,8 +125,9 @@ void plot_lobes(const LobePlot &plot, const std::filesystem::path &file) {
     for (std::size_t i = 0; i < kPlanes.size(); ++i)
         script += panel_of(kPlanes[i], data[i], most);
     if (const Bard *const bard = views_of(plot.fabric); bard && bard->peak() > 0) {
-        const DiskMap map = disk_map(
-            "map", 90, [&](double theta, double phi) { return bard->at(direction(theta, phi)); });
+        const DiskMap map = disk_map("map", 90, [&](double theta, double phi) {
+            return bard->at(direction_of(theta, phi));
+        });
         script = map.block + script + disk_style(map.most) + kMapLabels;
     }
     run_gnuplot(script + "unset multiplot\n", file, kWidth, kHeight);

@@ -24,10 +24,10 @@ class FacetMap {
           f0_(f0_of(*find_specular<CarriedViews>(fabric))) {}
 
     double at(double tilt, double phi) const {
-        const glm::dvec3 half = direction(tilt, phi);
+        const glm::dvec3 half = direction_of(tilt, phi);
         const double cosine = half.z;
         if (tilt <= kLargestTilt * kDegree) {
-            const glm::dvec3 view = direction(2 * tilt, phi);
+            const glm::dvec3 view = direction_of(2 * tilt, phi);
             return facets_of_view(bard_, f0_, {view.x, view.y, std::max(view.z, 0.0)});
         }
         // The same solved for light and viewer at H, where F is f0 and G is min(1, 2 cos^2)
@@ -90,7 +90,7 @@ void plot_maps(const Fabric &fabric, const std::filesystem::path &file) {
     const FacetMap facets(fabric); // first: it throws where there is no BARD
     const CarriedViews &carried = *find_specular<CarriedViews>(fabric);
     const auto bard = [&](double theta, double phi) {
-        return carried.bard.at(direction(theta, phi));
+        return carried.bard.at(direction_of(theta, phi));
     };
     const auto facet = [&](double tilt, double phi) { return facets.at(tilt, phi); };
     const DiskMap views = disk_map("bard", 90, bard);

@@ -75,10 +75,6 @@ std::string Plane::title() const {
            "°'";
 }
 
-glm::dvec3 direction(double theta, double phi) {
-    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-}
-
 double turn(double a, double b) { return std::remainder(a - b, 2 * kPi); }
 
 bool has_light(const ReflectanceRow &row, double theta_i, double phi_i) {

@@ -30,7 +30,6 @@ struct Plane {
 };
 inline constexpr std::array<Plane, 3> kPlanes = {{{"warp", 90}, {"bias", 45}, {"weft", 0}}};
 
-glm::dvec3 direction(double theta, double phi);
 // Difference of two azimuths, in [-pi, pi].
 double turn(double a, double b);
 bool has_light(const ReflectanceRow &row, double theta_i, double phi_i);

@@ -24,7 +24,7 @@ using Curve = std::vector<glm::dvec2>; // phi_r in degrees, BRDF
 Curve curve_of(const BrdfFunction &f, const glm::dvec3 &to_light, int ring) {
     Curve curve;
     for (int phi = 0; phi <= 360; ++phi)
-        curve.push_back({phi, f(to_light, direction(ring * kDegree, phi * kDegree))});
+        curve.push_back({phi, f(to_light, direction_of(ring * kDegree, phi * kDegree))});
     return curve;
 }
 
@@ -62,7 +62,7 @@ struct Panel {
 Panel panel_of(const RingPlot &plot, const std::vector<BrdfFunction> &models, const Plane &plane,
                int ring) {
     const std::string tail = std::string("_") + plane.name + "_" + std::to_string(ring);
-    const glm::dvec3 to_light = direction(plot.theta_i, plane.phi());
+    const glm::dvec3 to_light = direction_of(plot.theta_i, plane.phi());
     const int mirror = plane.phi_deg + 180;
     double most = 0;
     std::vector<Curve> values;

@@ -178,6 +178,11 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     garment::GarmentFrames frames =
         garment::read_frames(job.garment, job.frames, job.morph_targets, progress);
     stage.further = std::move(frames.further);
+    if (options.want_frames && !job.invented_grain && frames.first.mesh.uv.empty())
+        throw Error(
+            {"the mesh has no UV, and '" + fabric.name + "' has a warp direction",
+             job.garment.string(),
+             "expected the UVs of the panels, or a stated direction of the warp (--grain)"});
     add_object(scene, "garment",
                stage.meshes.add({.file = std::move(frames.first),
                                  .where = job.garment.string(),

@@ -1,10 +1,8 @@
 #include "accelerator.h"
 
-#include <mutex>
-#include <string>
-
 #include <embree3/rtcore.h>
 
+#include "tsuya/sdk/detail/bvh_monitor.h"
 #include "tsuya/sdk/detail/embree_ray.h"
 #include "tsuya/sdk/error.h"
 
@@ -51,33 +49,11 @@ Accelerator::Accelerator(const Scene &scene, const glm::dvec3 &centre, const Pro
         rtcAttachGeometryByID(state_->scene, geometry, i);
         rtcReleaseGeometry(geometry);
     }
-    build(progress);
-}
-
-void Accelerator::build(const Progress &progress) {
-    // Embree asks from all of its threads whether to go on, and says how far it is
-    struct Monitor {
-        const Progress &progress;
-        std::mutex reporting{};
-    } monitor{progress};
-    rtcSetSceneProgressMonitorFunction(
-        state_->scene,
-        [](void *given, double fraction) {
-            Monitor &m = *static_cast<Monitor *>(given);
-            if (const std::unique_lock lock(m.reporting, std::try_to_lock); lock)
-                m.progress("prepare", fraction);
-            return !m.progress.stopped();
-        },
-        &monitor);
+    detail::BvhMonitor monitor(progress);
+    rtcSetSceneProgressMonitorFunction(state_->scene, detail::BvhMonitor::ask, &monitor);
     rtcCommitScene(state_->scene);
     rtcSetSceneProgressMonitorFunction(state_->scene, nullptr, nullptr);
-    const RTCError error = rtcGetDeviceError(state_->device);
-    if (error == RTC_ERROR_CANCELLED || progress.stopped())
-        throw Interrupted("stopped while the BVH was built");
-    if (error != RTC_ERROR_NONE)
-        throw Error(
-            {"Embree cannot build the BVH (error " + std::to_string(static_cast<int>(error)) + ")",
-             "", "expected enough memory for the scene"});
+    monitor.check(rtcGetDeviceError(state_->device));
 }
 
 Accelerator::~Accelerator() = default;

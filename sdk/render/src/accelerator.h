@@ -39,8 +39,6 @@ class Accelerator {
 
   private:
     struct State;
-    void build(const Progress &progress);
-
     std::unique_ptr<State> state_;
 };
 

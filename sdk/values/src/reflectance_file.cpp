@@ -6,6 +6,7 @@
 
 #include "delimited_text.h"
 #include "table_columns.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/text.h"
 
@@ -23,11 +24,6 @@ std::string lower_case(std::string_view text) {
     for (char &c : lower)
         c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     return lower;
-}
-
-// "1 value", "3 values".
-std::string counted(std::size_t n, const std::string &what) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
 // A value as its file has it, with the place of it.
@@ -254,11 +250,11 @@ class TableReader {
             channel.table.rows[i].sigma_per_sr = v.sigma;
         }
         if (negative > 0)
-            file_.warnings.push_back(counted(negative, "value") + " below 0" + of +
+            file_.warnings.push_back(detail::counted(negative, "value") + " below 0" + of +
                                      " within noise count as 0");
         if (vanishing > 0)
-            file_.warnings.push_back(counted(vanishing, "value") + " below 1e-30 per sr" + of +
-                                     " count as 0");
+            file_.warnings.push_back(detail::counted(vanishing, "value") + " below 1e-30 per sr" +
+                                     of + " count as 0");
         if (peak < kVanishing)
             file_.warnings.push_back("all values" + of + " are 0: the cloth is black");
         file_.channels.push_back(std::move(channel));

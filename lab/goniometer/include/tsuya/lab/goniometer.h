@@ -76,7 +76,8 @@ struct LightReport {
 
 /// What `measure` found.
 struct Measurement {
-    ReflectanceTable table{}; ///< rows in the order of the pairs, with sigma_per_sr
+    /// Rows in the order of the pairs, with sigma_per_sr; without those of lights of no photon.
+    ReflectanceTable table{};
     std::vector<LightReport> lights{};
     std::uint64_t photons = 0, rays = 0; ///< of this run, without what was resumed
     double seconds = 0;                  ///< of this run
