@@ -54,6 +54,17 @@ void fill(const fs::path &folder, const RigFile &rig, const fs::path &rig_file) 
     write_file(folder / "rig.toml", read_file(rig_file));
 }
 
+/// Makes lasting what the folder has, and that it is there.
+void sync_all(const fs::path &folder) {
+    for (const auto &entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_directory())
+            sync_folder(entry.path());
+        else
+            sync_file(entry.path());
+    sync_folder(folder);
+    sync_folder(fs::absolute(folder).lexically_normal().parent_path());
+}
+
 /// The line, also where the file does not end with a line break.
 std::string line_at(const TextLines &lines, std::size_t i) {
     if (i < lines.whole.size())
@@ -86,7 +97,7 @@ void create_session(const fs::path &folder, const fs::path &plan_file, const fs:
         fill(folder, rig, rig_file);
         write_file(folder / "plan.jsonl", read_file(plan_file));
         write_file(folder / "journal.jsonl", ""); // nothing has happened yet
-        sync_folder(folder);
+        sync_all(folder);
     } catch (...) {
         std::error_code ignored;
         fs::remove_all(folder, ignored); // it was not there, or empty

@@ -91,7 +91,7 @@ if grep -q host /options; then
     for shared in dev proc sys; do mount --bind "/$shared" "/host/$shared"; done
 fi
 if grep -q disk /options; then
-    modprobe -a virtio_pci virtio_blk ext4 || fail "disks cannot be used"
+    modprobe -a virtio_pci virtio_blk crc32c_generic ext4 || fail "disks cannot be used"
 fi
 
 # Timers are as coarse as a tick until the kernel trusts its clock.
