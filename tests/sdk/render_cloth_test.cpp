@@ -46,6 +46,16 @@ TEST(Furnace, LossyThinClothIsSeen) { // negative control
     EXPECT_LT(mean_difference(furnace(thin(satin(0.3), 0.68))), -4e-3);
 }
 
+TEST(KeptMaterials, LeaveThePictureAsItIs) {
+    KeptMaterials kept;
+    for (const double dye : {0.3, 0.6}) {
+        const Scene scene = furnace(satin(dye));
+        EXPECT_EQ(render(scene, quick(4), {}, &kept).image.transport,
+                  render(scene, quick(4)).image.transport);
+        EXPECT_EQ(kept.size(), 1u);
+    }
+}
+
 // A sheet seen from above that is lit by a rectangle on one side of it.
 Scene lit_sheet(const Fabric &fabric, bool from_behind) {
     Scene scene;

@@ -2,11 +2,14 @@
 
 #include "tsuya/sdk/fabric.h"
 
+#include <atomic>
+
 #include <gtest/gtest.h>
 
 #include "sdk/synthetic_table.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/kept_materials.h"
 
 namespace tsuya::test {
 namespace {
@@ -131,6 +134,29 @@ TEST(Resolve, TakesTablesOfTheSameCloth) {
     // A colourless surface takes no light from the body below it
     pale.colours.specular_tint = Spectrum::constant(0);
     EXPECT_GT(resolve(pale, "pale", first).body->albedo(view), 1.01f * made.body->albedo(view));
+}
+
+// Where nothing is to be tabulated, there is nothing to stop.
+TEST(KeptMaterials, TabulateEachClothOnce) {
+    Fabric red = satin(), pale = satin(), other = satin();
+    pale.colours.dye = Spectrum::constant(0.7);
+    find_specular<CarriedViews>(other)->f0 = 0.06;
+    const std::atomic<bool> stop{true};
+    const Progress stopped{.stop = &stop};
+    KeptMaterials kept;
+    EXPECT_THROW(kept.resolve(red, "red", stopped), Interrupted);
+    EXPECT_EQ(kept.size(), 0u);
+    kept.resolve(red, "red");
+    const Material taken = kept.resolve(pale, "pale", stopped), made = resolve(pale, "pale");
+    const glm::vec3 light = direction(40, 10), view = direction(60, 170);
+    EXPECT_EQ(taken.specular->evaluate(light, view), made.specular->evaluate(light, view));
+    EXPECT_EQ(taken.body->evaluate(light, view), made.body->evaluate(light, view));
+    EXPECT_EQ(kept.size(), 1u);
+    EXPECT_THROW(kept.resolve(other, "other", stopped), Interrupted) << "another cloth";
+    kept.resolve(other, "other");
+    EXPECT_EQ(kept.size(), 2u);
+    kept.clear();
+    EXPECT_THROW(kept.resolve(red, "red", stopped), Interrupted);
 }
 
 TEST(Resolve, RefusesTwoDescriptionsOfOneKind) {

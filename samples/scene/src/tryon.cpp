@@ -226,9 +226,10 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
     return make_stage(job, progress).shown;
 }
 
-RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Progress &progress) {
+RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Progress &progress,
+                           KeptMaterials *kept) {
     settings.aovs = {"object"};
-    RenderResult rendered = render(scene, settings, progress);
+    RenderResult rendered = render(scene, settings, progress, kept);
     keep_coverage(rendered.image);
     return rendered;
 }
@@ -246,6 +247,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
 
     TryOnResult result{.report = std::move(stage.shown.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
+    KeptMaterials kept;
     const std::size_t shapes = 1 + stage.further.size(), count = shapes * dyes.size();
     for (std::size_t i = 0; i < count && !result.interrupted; ++i) {
         const std::size_t frame = i / dyes.size();
@@ -259,7 +261,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
             scene.surfaces[0] = show->frame(stage.further[frame - 1]);
         if (dye.spectrum)
             scene.fabrics[0].colours.dye_all(*dye.spectrum);
-        const RenderResult rendered = render_try_on(scene, job.render, part);
+        const RenderResult rendered = render_try_on(scene, job.render, part, &kept);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;
         add_warnings(rendered, result);

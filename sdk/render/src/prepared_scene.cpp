@@ -68,40 +68,28 @@ MeanColours means_of(const Colours &c, int channels) {
 } // namespace
 
 PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool keep_idle_parts,
-                             const SpectralBasis &basis, const Progress &progress)
+                             const SpectralBasis &basis, KeptMaterials *kept,
+                             const Progress &progress)
     : scene(the_scene), plan(the_plan), centre(middle_of(the_scene)),
       accelerator(the_scene, centre, progress),
       lights(the_scene, the_plan, centre, radius_of(the_scene, centre)) {
-    prepare_fabrics(keep_idle_parts, basis, progress);
+    prepare_fabrics(keep_idle_parts, basis, kept, progress);
     prepare_camera();
 }
 
 void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis,
-                                    const Progress &progress) {
+                                    KeptMaterials *kept, const Progress &progress) {
     std::vector<bool> used(scene.fabrics.size(), keep_idle_parts);
     for (const Object &object : scene.objects)
         used[object.fabric.value] = true;
-    std::vector<Material> made;
-    // A fabric before, made, with the same specular part: one cloth in several colours; one with a
-    // body if there is one, so that the next dye need not make it again
-    const auto alike = [&](std::size_t i) {
-        const Material *found = nullptr;
-        for (std::size_t j = 0; j < i && !(found && found->body); ++j)
-            if (used[j] && scene.fabrics[j].specular == scene.fabrics[i].specular)
-                found = &made[j];
-        return found;
-    };
+    KeptMaterials own;
+    KeptMaterials &materials = kept ? *kept : own;
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
         if (progress.stopped())
             throw Interrupted("stopped while the fabrics were prepared");
-        const std::string where = "fabrics." + scene.fabrics[i].name;
-        if (!used[i])
-            made.emplace_back();
-        else if (const Material *const same = alike(i))
-            made.push_back(resolve(scene.fabrics[i], where, *same, progress));
-        else
-            made.push_back(resolve(scene.fabrics[i], where, progress));
-        const Material &material = made.back();
+        const Fabric &fabric = scene.fabrics[i];
+        const Material material =
+            used[i] ? materials.resolve(fabric, "fabrics." + fabric.name, progress) : Material{};
         colours.push_back(colours_of(material, basis));
         shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
     }

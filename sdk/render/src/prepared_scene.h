@@ -11,6 +11,7 @@
 #include "lights.h"
 #include "shading.h"
 #include "tsuya/sdk/frame.h"
+#include "tsuya/sdk/kept_materials.h"
 #include "tsuya/sdk/plan.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/scene.h"
@@ -35,9 +36,10 @@ struct Colours {
 };
 
 struct PreparedScene {
+    // \param kept null where nothing is kept
     // Throws Error as resolve, and Interrupted where progress.stop becomes true.
     PreparedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts,
-                  const SpectralBasis &basis, const Progress &progress);
+                  const SpectralBasis &basis, KeptMaterials *kept, const Progress &progress);
 
     const Scene &scene;
     Plan plan;
@@ -55,7 +57,7 @@ struct PreparedScene {
 
   private:
     void prepare_camera();
-    void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis,
+    void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials *kept,
                          const Progress &progress);
 };
 

@@ -99,7 +99,7 @@ RenderResult result_of(const Film &film, const Scene &scene, const RenderSetting
 }
 
 RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
-                            const Progress &progress) {
+                            const Progress &progress, KeptMaterials *kept) {
     const Clock::time_point start = Clock::now();
     double build_seconds = 0;
     Film film(scene, settings);
@@ -113,7 +113,7 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     try {
         progress("prepare", 0);
         const PreparedScene prepared(scene, plan(scene, settings), !settings.skip,
-                                     {.count = settings.channels}, progress);
+                                     {.count = settings.channels}, kept, progress);
         build_seconds = seconds_since(start);
         trace_passes(prepared, settings, film, keeper, progress);
     } catch (const Interrupted &) {
@@ -135,13 +135,14 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
 
 std::vector<std::string> aov_names() { return {"coverage", "depth", "normal", "warp", "object"}; }
 
-RenderResult render(const Scene &scene, const RenderSettings &settings, const Progress &progress) {
+RenderResult render(const Scene &scene, const RenderSettings &settings, const Progress &progress,
+                    KeptMaterials *kept) {
     check_scene(scene);
     check_settings(scene, settings);
     check_memory(scene, settings);
     RenderResult result;
     detail::run_with_threads(settings.threads,
-                             [&] { result = render_checked(scene, settings, progress); });
+                             [&] { result = render_checked(scene, settings, progress, kept); });
     return result;
 }
 

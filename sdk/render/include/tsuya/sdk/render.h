@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/kept_materials.h"
 #include "tsuya/sdk/plan.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/scene.h"
@@ -90,7 +91,9 @@ struct RenderResult {
 /// for more memory than is available, and where more than 1 % of the first samples are not finite.
 /// Where progress.stop becomes true, returns what it has with stats.interrupted set; stopped during
 /// preparation that is a picture of 0, or what the checkpoint had.
+/// \param kept takes the models' tables from renders before and keeps them for those after; may be
+/// null. The picture is the same.
 RenderResult render(const Scene &scene, const RenderSettings &settings,
-                    const Progress &progress = {});
+                    const Progress &progress = {}, KeptMaterials *kept = nullptr);
 
 } // namespace tsuya
