@@ -210,6 +210,33 @@ TEST_F(SessionRuns, KeepToTheShuttersDutyAndInterval) {
     }
 }
 
+// With a command the picture begins when the blades are open; what the line triggers is late as a
+// whole.
+TEST_F(SessionRuns, WaitForTheBladesOfTheShutter) {
+    bed.rig.shutter.lag = Seconds(0.25);
+    for (const bool triggers : {false, true}) {
+        if (triggers)
+            bed.rig.camera.command.clear();
+        SessionBed other;
+        other.create();
+        BedRun run(bed.rig);
+        std::vector<std::chrono::nanoseconds> began, moved;
+        run.camera.on_expose = [&](const Shot &) { began.push_back(run.time.now()); };
+        run.mechanics.on_move = [&](AxisName) { moved.push_back(run.time.now()); };
+        run.run(other.folder(), bed.rig);
+        const auto &lines = run.shutter.transitions();
+        const CountedFrame &frame = read_session(other.folder()).warm_up.at(1);
+        const auto open = lines[2].time, shut = lines[3].time; // the second picture
+        EXPECT_EQ(began[1] - open, triggers ? 0ms : 250ms);
+        EXPECT_EQ(shut - open, 1s * frame.exposure_s + (triggers ? 0ms : 250ms));
+        EXPECT_NEAR(frame.time_s - 1.7e9 - Seconds(open).count(), 0.25 + 0.5 * frame.exposure_s,
+                    1e-6);
+        for (std::size_t i = 1; i < lines.size(); i += 2)
+            for (const auto time : moved)
+                EXPECT_FALSE(time >= lines[i].time && time < lines[i].time + 250ms);
+    }
+}
+
 TEST_F(SessionRuns, AreStoppedInTheMiddleOfAnything) {
     for (const auto at : {10s, 900s, 960s, 1070s, 1100s}) {
         SessionBed other;

@@ -118,7 +118,8 @@ void read_exposures(const Section &section, const RigFile &rig, std::vector<doub
     if (!good)
         section.problem("exposures_s", "the exposures are no ascending times",
                         "expected such as [0.01, 0.1, 1], in seconds");
-    else if (exposures.back() > rig.shutter.max_open.count())
+    else if (exposures.back() + (section.has("command") ? rig.shutter.lag.count() : 0) >
+             rig.shutter.max_open.count())
         section.problem("exposures_s",
                         "an exposure is longer than the shutter's max_open_s of " +
                             number_text(rig.shutter.max_open.count()) + " s",

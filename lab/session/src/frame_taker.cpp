@@ -86,23 +86,34 @@ void FrameTaker::set_shutter(bool open) {
     }
 }
 
-void FrameTaker::expose(const Shot &shot) {
+FrameTaker::Exposure FrameTaker::expose(Shot &shot) {
     const OffGuard released({hardware_.half_press});
     if (hardware_.half_press) {
         hardware_.half_press->set(true);
         sleep(kWake);
     }
     const bool opens = shot.planned.kind != FrameKind::dark && hardware_.shutter;
+    const Seconds lag = opens ? rig_.shutter.lag : Seconds(0);
+    const bool triggers = rig_.camera.command.empty();
     if (opens) {
-        const Seconds pause{shot.planned.exposure_s / rig_.shutter.max_duty};
-        next_opening_ =
-            hardware_.clock.now() + nanoseconds_of(std::max(rig_.shutter.min_interval, pause));
+        const Seconds open = Seconds(shot.planned.exposure_s) + (triggers ? Seconds(0) : lag);
+        const Seconds pause = std::max(rig_.shutter.min_interval, open / rig_.shutter.max_duty);
+        next_opening_ = hardware_.clock.now() + nanoseconds_of(pause);
         set_shutter(true);
+        if (!triggers)
+            sleep(lag); // no picture begins before the blades are open
     }
     const OffGuard closed({opens ? hardware_.shutter : nullptr});
+    // What the line triggers begins and ends late by the same time.
+    const double late_s = triggers ? lag.count() : 0;
+    shot.time_s = journal_.now_s() + late_s;
     hardware_.camera.expose(shot);
-    if (opens)
+    const Exposure exposure{.begin_s = shot.time_s, .end_s = journal_.now_s() + late_s};
+    if (opens) {
         set_shutter(false);
+        sleep(lag); // nothing moves before the blades are shut
+    }
+    return exposure;
 }
 
 double FrameTaker::take(const Shot &asked) {
@@ -115,15 +126,13 @@ double FrameTaker::take(const Shot &asked) {
                            .frame = shot.number,
                            .numbers = {{"exposure_s", shot.planned.exposure_s}}});
     try {
-        shot.time_s = journal_.now_s();
-        expose(shot);
-        const double end_s = journal_.now_s();
+        const Exposure exposure = expose(shot);
         hardware_.clock.check(); // an exposure during which the housing was opened never counts
         journal_.note({.kind = EventKind::close, .frame = shot.number});
         hardware_.camera.collect(shot);
         const FrameStore::Checked checked = store_.check(shot, stop_);
-        journal_.note_lasting(
-            count_event(shot, checked.facts, checked.hash, 0.5 * (shot.time_s + end_s)));
+        journal_.note_lasting(count_event(shot, checked.facts, checked.hash,
+                                          0.5 * (exposure.begin_s + exposure.end_s)));
         store_.keep(checked.hash);
         return checked.facts.patch_mean;
     } catch (const SessionFault &) {

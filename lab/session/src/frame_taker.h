@@ -31,7 +31,10 @@ class FrameTaker {
     void wait_for_camera();
     void wait_for_shutter();
     void set_shutter(bool open);
-    void expose(const Shot &shot);
+    struct Exposure {
+        double begin_s, end_s; ///< seconds since 1970
+    };
+    Exposure expose(Shot &shot);
     /// The event from which a picture counts.
     JournalEvent count_event(const Shot &shot, const FrameFacts &facts, const std::string &hash,
                              double middle_s) const;

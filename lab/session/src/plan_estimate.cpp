@@ -7,8 +7,10 @@ namespace tsuya::lab {
 namespace {
 
 Seconds frame_time(const RigFile &rig, double exposure_s) {
-    return std::max({rig.shutter.min_interval, Seconds(exposure_s / rig.shutter.max_duty),
-                     Seconds(exposure_s) + rig.camera.transfer});
+    const Seconds lag = rig.shutter.lag; // a camera with a command waits for the blades to open
+    const Seconds open = Seconds(exposure_s) + (rig.camera.command.empty() ? Seconds(0) : lag);
+    return std::max(
+        {rig.shutter.min_interval, open / rig.shutter.max_duty, open + lag + rig.camera.transfer});
 }
 
 } // namespace

@@ -49,7 +49,9 @@ struct RigShutter {
     Seconds min_interval{0}; ///< from one opening to the next
     Seconds max_open{60};
     double max_duty = 1; ///< largest share of the time that it is open, 0 to 1
-    Seconds lag{0};      ///< from the line to the blades
+    /// From the line to the blades, at both ends. A camera with a command begins after it; what the
+    /// line triggers is dated later by it; nothing moves before it has passed.
+    Seconds lag{0};
 };
 
 /// `[camera]`
