@@ -91,9 +91,46 @@ TEST(SessionFolders, AreResumedWithTheSameRigAndPlanAlone) {
         EXPECT_EQ(error.problems()[0].where, bed.rig_file().string() + ":14");
     }
     write_file(bed.rig_file(), kSmallRig);
+    EXPECT_NO_THROW(check_same_rig_and_plan(bed.folder(), bed.rig_file()));
     bed.plan.frames.pop_back();
     write_plan(bed.plan, bed.folder() / "plan.jsonl");
     EXPECT_THROW(check_same_rig_and_plan(bed.folder(), bed.rig_file()), Error);
+}
+
+// Of the standard's table and of the camera's response the content counts, not only the name.
+TEST(SessionFolders, AreResumedWithTheSameStandardAndResponseAlone) {
+    SessionBed bed;
+    std::string text = kSmallRig;
+    text.replace(text.find("0.99"), 4, "\"white.csv\"");
+    text.replace(text.find("black = 100"), 11, "response = \"response.csv\"\nblack = 100");
+    write_file(bed.scratch / "white.csv", "400,0.98\n700,0.97\n");
+    write_file(bed.scratch / "response.csv", "0,0\n1000,1\n");
+    write_file(bed.rig_file(), text);
+    bed.rig = read_rig_file(bed.rig_file());
+    bed.plan.rig_hash = file_hash(bed.rig_file());
+    write_plan(bed.plan, bed.plan_file());
+    bed.finished();
+    const auto problem = [&]() -> Problem {
+        try {
+            check_same_rig_and_plan(bed.folder(), bed.rig_file());
+        } catch (const Error &error) {
+            return error.problems().front();
+        }
+        return {.what = "no error"};
+    };
+    EXPECT_EQ(problem().what, "no error");
+    write_file(bed.scratch / "white.csv", "400,0.98\n700,0.96\n");
+    EXPECT_EQ(problem().what, "is now '700,0.96'");
+    EXPECT_EQ(problem().where, (bed.scratch / "white.csv").string() + ":2");
+    // The copy was changed as well.
+    write_file(bed.folder() / "white.csv", "400,0.98\n700,0.96\n");
+    EXPECT_EQ(problem().what,
+              "a copy of the files that the rig file names was changed after the session began");
+    write_file(bed.scratch / "white.csv", "400,0.98\n700,0.97\n");
+    write_file(bed.folder() / "white.csv", "400,0.98\n700,0.97\n");
+    EXPECT_EQ(problem().what, "no error");
+    std::filesystem::remove(bed.scratch / "response.csv");
+    EXPECT_EQ(problem().what, "the file that the rig file names is gone");
 }
 
 } // namespace

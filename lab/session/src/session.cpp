@@ -82,9 +82,21 @@ class SessionReader {
 
 } // namespace
 
-std::string file_hash(const std::filesystem::path &file) {
+std::vector<std::filesystem::path> files_named_by(const RigFile &rig) {
+    std::vector<std::filesystem::path> files;
+    if (const auto *standard = std::get_if<std::filesystem::path>(&rig.white.rho_std))
+        files.push_back(*standard);
+    if (!rig.camera.response.empty())
+        files.push_back(rig.camera.response);
+    return files;
+}
+
+std::string file_hash(const std::filesystem::path &file) { return files_hash({file}); }
+
+std::string files_hash(const std::vector<std::filesystem::path> &files) {
     detail::Hasher hasher;
-    hasher.text(read_file(file));
+    for (const std::filesystem::path &file : files)
+        hasher.text(read_file(file));
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hasher.result()));
     return text;
@@ -99,6 +111,7 @@ Session read_session(const std::filesystem::path &folder) {
                     .plan_hash = file_hash(plan),
                     .rig_hash = file_hash(rig),
                     .journal_hash = file_hash(journal)};
+    session.named_hash = files_hash(files_named_by(session.rig));
     SessionReader reader(session);
     for (const JournalEvent &event : read_journal(journal).events)
         reader.take(event, journal.string() + ":" + std::to_string(event.seq + 1));

@@ -20,8 +20,6 @@ void make_folder(const fs::path &folder) {
 /// Copies a file that the rig file names, to the same place beside the copy of the rig file.
 void copy_named(const fs::path &named, const fs::path &rig_folder, const fs::path &folder,
                 Problems &problems) {
-    if (named.empty())
-        return;
     const fs::path beside = named.lexically_relative(rig_folder.empty() ? "." : rig_folder);
     if (!problems.need(!beside.empty() && *beside.begin() != "..",
                        "the rig file names a file outside of its folder", named.string(),
@@ -47,9 +45,8 @@ void fill(const fs::path &folder, const RigFile &rig, const fs::path &rig_file) 
     make_folder(folder / "frames");
     make_folder(folder / "rejected");
     const fs::path rig_folder = rig_file.parent_path();
-    if (const auto *standard = std::get_if<fs::path>(&rig.white.rho_std))
-        copy_named(*standard, rig_folder, folder, problems);
-    copy_named(rig.camera.response, rig_folder, folder, problems);
+    for (const fs::path &named : files_named_by(rig))
+        copy_named(named, rig_folder, folder, problems);
     problems.throw_if_any();
     write_file(folder / "rig.toml", read_file(rig_file));
 }
@@ -84,6 +81,31 @@ void add_differences(const fs::path &was, const fs::path &is, Problems &problems
     }
 }
 
+/// The copies of the files that the rig file names, beside those of now.
+void add_named_differences(const fs::path &folder, const fs::path &rig, Problems &problems) {
+    const RigFile begun = read_rig_file(folder / "rig.toml");
+    for (const fs::path &was : files_named_by(begun)) {
+        const fs::path is = rig.parent_path() / was.lexically_relative(folder);
+        if (problems.need(fs::is_regular_file(is), "the file that the rig file names is gone",
+                          is.string(), "expected it as when the session began"))
+            add_differences(was, is, problems);
+    }
+}
+
+/// What was hashed when the session began, and what is there now.
+void add_changes(const JournalEvent &begun, const fs::path &folder, Problems &problems) {
+    const auto same = [&](const char *key, const std::string &hash, const std::string &what,
+                          const fs::path &where) {
+        const std::string was = begun.text(key);
+        problems.need(was.empty() || was == hash, what + " was changed after the session began",
+                      where.string(), "expected the hash " + was);
+    };
+    same("plan", file_hash(folder / "plan.jsonl"), "the plan", folder / "plan.jsonl");
+    same("rig", file_hash(folder / "rig.toml"), "the copy of the rig file", folder / "rig.toml");
+    same("named", files_hash(files_named_by(read_rig_file(folder / "rig.toml"))),
+         "a copy of the files that the rig file names", folder);
+}
+
 } // namespace
 
 void create_session(const fs::path &folder, const fs::path &plan_file, const fs::path &rig_file) {
@@ -108,14 +130,13 @@ void create_session(const fs::path &folder, const fs::path &plan_file, const fs:
 void check_same_rig_and_plan(const fs::path &folder, const fs::path &rig) {
     Problems problems;
     add_differences(folder / "rig.toml", rig, problems);
-    const fs::path plan = folder / "plan.jsonl";
-    const Journal begun = read_journal(folder / "journal.jsonl");
-    for (const JournalEvent &event : begun.events)
-        if (event.kind == EventKind::session &&
-            !problems.need(event.text("plan") == file_hash(plan),
-                           "the plan was changed after the session began", plan.string(),
-                           "expected the plan with the hash " + event.text("plan")))
+    problems.throw_if_any();
+    add_named_differences(folder, rig, problems);
+    for (const JournalEvent &event : read_journal(folder / "journal.jsonl").events)
+        if (event.kind == EventKind::session) {
+            add_changes(event, folder, problems);
             break;
+        }
     problems.throw_if_any();
 }
 

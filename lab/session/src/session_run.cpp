@@ -79,6 +79,7 @@ void SessionRun::begin() {
     journal_.note_lasting({.kind = EventKind::session,
                            .texts = {{"plan", session_.plan_hash},
                                      {"rig", session_.rig_hash},
+                                     {"named", session_.named_hash},
                                      {"boot", hardware_.moments().boot}}});
     if (settings_.fault_log.empty())
         return;

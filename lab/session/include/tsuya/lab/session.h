@@ -42,6 +42,7 @@ struct Session {
     std::vector<RejectedFrame> rejected{}; ///< in order of time
     std::vector<std::size_t> missing{};    ///< numbers of frames that are not there yet
     std::string plan_hash{}, rig_hash{}, journal_hash{}; ///< of the files' bytes, 16 hex digits
+    std::string named_hash{};                            ///< of the files that the rig file names
     bool dry_run = false; ///< the pictures are those of a simulated camera
 };
 
@@ -52,5 +53,12 @@ Session read_session(const std::filesystem::path &folder);
 
 /// The hash of a file's bytes that plan, journal and frames are known by: 16 hex digits.
 std::string file_hash(const std::filesystem::path &file);
+
+/// The same of the bytes of several files in order; of one file it is file_hash().
+std::string files_hash(const std::vector<std::filesystem::path> &files);
+
+/// The files that a rig file names and a session keeps copies of: the table or spectrum of its
+/// white standard and its camera's response, where it has them.
+std::vector<std::filesystem::path> files_named_by(const RigFile &rig);
 
 } // namespace tsuya::lab

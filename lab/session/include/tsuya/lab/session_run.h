@@ -47,7 +47,7 @@ void create_session(const std::filesystem::path &folder, const std::filesystem::
                     const std::filesystem::path &rig);
 
 /// Throws Error with the lines that differ if the session's rig file is not the same as `rig`, or
-/// the plan not the one that the session began with.
+/// the plan, or a file that the rig file names, not the one that the session began with.
 void check_same_rig_and_plan(const std::filesystem::path &folder, const std::filesystem::path &rig);
 
 /// Takes the frames of the session's plan that do not count yet: lights the lamp, waits until it is
