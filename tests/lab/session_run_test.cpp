@@ -225,7 +225,7 @@ TEST_F(SessionRuns, WaitForTheBladesOfTheShutter) {
         run.mechanics.on_move = [&](AxisName) { moved.push_back(run.time.now()); };
         run.run(other.folder(), bed.rig);
         const auto &lines = run.shutter.transitions();
-        const CountedFrame &frame = read_session(other.folder()).warm_up.at(1);
+        const CountedFrame frame = read_session(other.folder()).warm_up.at(1);
         const auto open = lines[2].time, shut = lines[3].time; // the second picture
         EXPECT_EQ(began[1] - open, triggers ? 0ms : 250ms);
         EXPECT_EQ(shut - open, 1s * frame.exposure_s + (triggers ? 0ms : 250ms));
