@@ -10,7 +10,7 @@ namespace {
 
 // Delustrant: particles of titanium dioxide (anatase, index 2.55, 3900 kg/m^3), 0.3 micrometres
 // across, in polyester (index 1.575, 1380 kg/m^3): 2 % by weight where it is dull [Delustrant], 0.3
-// % where it is semi-dull, which is usual in the trade; [Lustre] has the classes. Theirs is a
+// % where it is semi-dull [SemiDull]; [Lustre] has the classes. Theirs is a
 // scattering cross-section of 3.9 times their own by Mie's theory at 589 nm, computed by us, so
 // that light goes 2 d / (3 * 3.9 * share of the volume).
 constexpr double kSemiDull = 49e-6, kDull = 7.3e-6; // metres
