@@ -7,6 +7,7 @@
 #include "tsuya/color/difference.h"
 #include "tsuya/color/relight.h"
 #include "tsuya/color/srgb.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -14,7 +15,7 @@ namespace {
 
 void check(std::span<const NamedLamp> lamps) {
     if (lamps.size() < 2)
-        throw Error({"there are " + std::to_string(lamps.size()) + " lamps to compare", "lamps",
+        throw Error({detail::counted(lamps.size(), "lamp") + " to compare", "lamps",
                      "expected at least two"});
     for (std::size_t i = 0; i < lamps.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)

@@ -9,6 +9,7 @@
 #include "rows.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/light_group.h"
 
 namespace tsuya {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 // Rises when a file of an earlier version could not be read as before.
 constexpr const char *kSchema = "tsuya-spectral-1";
 constexpr const char *kMetaPrefix = "tsuya:meta:";
-constexpr const char *kOurs = "expected an EXR that tsuya wrote (see write_spectral_exr)";
+constexpr const char *kOurs = "expected an EXR that tsuya wrote";
 
 std::string group_key(std::size_t i) { return "tsuya:group." + std::to_string(i); }
 std::string aov_key(std::size_t i) { return "tsuya:aov." + std::to_string(i); }
@@ -63,9 +64,10 @@ void check(const SpectralImage &image, const std::string &where) {
             throw Error({"the AOV '" + image.aov_names[i] + "' has another size", where,
                          "expected the size of the picture"});
     }
-    for (const auto *names : {&image.groups, &image.aov_names})
-        if (std::find(names->begin(), names->end(), "") != names->end())
-            throw Error({"a light group or AOV has no name", where, "expected names"});
+    for (const std::string &group : image.groups)
+        check_light_group(group, where);
+    if (std::find(image.aov_names.begin(), image.aov_names.end(), "") != image.aov_names.end())
+        throw Error({"an AOV has no name", where, "expected names"});
 }
 
 void describe(const SpectralImage &image, OutputPicture &picture) {

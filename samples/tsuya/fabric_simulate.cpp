@@ -148,7 +148,7 @@ struct FabricSimulate final : Command {
                           [](const lab::LightReport &light) { return light.photons == 0; }));
         if (without > 0)
             console.warning({detail::counted(without, "direction") +
-                                 " of light got no photon and is not in the table",
+                                 " of light without a photon left out of the table",
                              "", "expected a longer --time, or --resume"});
     }
 

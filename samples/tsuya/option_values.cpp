@@ -8,6 +8,7 @@
 
 #include "options.h"
 #include "same_file.h"
+#include "tsuya/sdk/detail/counted.h"
 
 namespace tsuya::program {
 namespace {
@@ -114,7 +115,9 @@ template <class T> void set(const Option &option, T &field) {
         field = true;
     } else if constexpr (ElementOf<T>::kList) {
         if (option.count && option.words.size() != *option.count)
-            refuse(option, std::to_string(option.words.size()) + " values are given");
+            throw WrongCall({detail::counted(option.words.size(), "value") + " given",
+                             name_of(option),
+                             "expected " + std::to_string(*option.count) + ": " + option.value});
         field.clear();
         for (const std::string &word : option.words)
             field.push_back(value_of<Element>(option, word));

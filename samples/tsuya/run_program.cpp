@@ -8,16 +8,18 @@
 namespace tsuya::program {
 namespace {
 
+bool flushed(Console &console) {
+    if (std::cout.flush())
+        return true;
+    console.error("the results could not be written to the standard output");
+    return false;
+}
+
 int run(Command &command, Console &console) {
     try {
         const Status status = command.run(console);
         console.end_line();
-        std::cout.flush();
-        if (!std::cout) {
-            console.error("the results could not be written to the standard output");
-            return kWrongInput;
-        }
-        return status;
+        return flushed(console) ? status : kWrongInput;
     } catch (const WrongCall &wrong) { // rules that the options do not know
         console.errors(wrong);
         return kWrongCall;
@@ -43,8 +45,8 @@ int run_program(std::span<const CommandEntry> table, int argc, const char *const
         console.set_mode(parse_progress_mode(call.progress));
         if (call.command)
             return run(*call.command, console);
-        std::cout << call.text << std::flush;
-        return std::cout ? kDone : kWrongInput;
+        std::cout << call.text;
+        return flushed(console) ? kDone : kWrongInput;
     } catch (const WrongCall &wrong) {
         console.errors(wrong);
         return kWrongCall;

@@ -83,6 +83,7 @@ TEST_F(TableFile, BadOnesAreRefusedWithLineAndColumn) {
              {kHeader + "0,361,30,0,0.5\n", ":2:3"},
              {kHeader + "0,0,30,-400,0.5\n", ":2:8"},
              {"# symmetry: orthotrop\n" + kHeader + good, ":1:1"},
+             {"# symmetry: orthotropic\n# symmetry: none\n" + kHeader + good, ":2:1"},
          }) {
         const auto problems = problems_of(read_reflectance_table, file("t.csv", bad.text));
         EXPECT_EQ(problems[0].where, bad.where) << bad.text;

@@ -32,8 +32,14 @@ MeshFile read_mesh(const std::filesystem::path &path, const Progress &progress) 
         return {.mesh = read_ply(path, progress)};
     if (extension == ".off")
         return {.mesh = read_off(path, progress)};
-    throw Error({"'" + extension + "' is not a mesh format that is read", path.string(),
-                 accepted_names(extension, mesh_extensions())});
+    std::error_code code;
+    if (!std::filesystem::exists(path, code))
+        throw Error({"there is no such file", path.string(), "expected a mesh"});
+    if (std::filesystem::is_directory(path, code))
+        throw Error({"it is a folder", path.string(), "expected a mesh"});
+    throw Error({extension.empty() ? std::string("the name has no extension")
+                                   : "'" + extension + "' is not a mesh format that is read",
+                 path.string(), accepted_names(extension, mesh_extensions())});
 }
 
 } // namespace tsuya::garment

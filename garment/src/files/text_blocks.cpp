@@ -27,7 +27,8 @@ TextBlocks::TextBlocks(const std::filesystem::path &file) : name_(file.string())
         throw Error({"it is a folder", name_, "expected a file"});
     in_.open(file, std::ios::binary);
     if (!in_)
-        throw Error({std::string("the file cannot be opened: ") + std::strerror(errno), name_, ""});
+        throw Error({std::string("the file cannot be opened: ") + std::strerror(errno), name_,
+                     "expected a file that may be read"});
 }
 
 void TextBlocks::read_more() {

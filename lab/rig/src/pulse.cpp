@@ -144,7 +144,7 @@ void check_pulse_train(const PulseTrain &train, const std::string &where) {
     const std::string prefix = where.empty() ? "" : where + ".";
     const auto require = [&](bool good, const char *field, const std::string &value,
                              const std::string &accepted) {
-        problems.need(good, "is " + value, prefix + field, accepted);
+        problems.need(good, "it is " + value, prefix + field, "expected " + accepted);
     };
     require(train.width > nanoseconds(0), "width", in_ms(train.width), "more than 0 ms");
     require(train.period > train.width && train.period <= kMaxPeriod, "period", in_ms(train.period),

@@ -49,6 +49,13 @@ int try_writing(const fs::path &folder, const fs::path &name) {
     return 0;
 }
 
+void create_folder(const fs::path &folder) {
+    std::error_code code;
+    fs::create_directories(folder.empty() ? fs::path(".") : folder, code);
+    if (code)
+        refuse_folder(folder, "the folder cannot be created: " + code.message());
+}
+
 } // namespace
 
 void check_output_folder(const fs::path &folder) {
@@ -57,12 +64,21 @@ void check_output_folder(const fs::path &folder) {
         refuse_folder(there, std::string("nothing can be written there: ") + std::strerror(code));
 }
 
-void prepare_output_folder(const fs::path &folder) {
+OutputFolder::OutputFolder(const fs::path &folder)
+    : folder_(fs::absolute(folder.empty() ? fs::path(".") : folder).lexically_normal()) {
     check_output_folder(folder);
+    if (!folder_.has_filename()) // it ended in a slash
+        folder_ = folder_.parent_path();
     std::error_code code;
-    fs::create_directories(folder.empty() ? fs::path(".") : folder, code);
-    if (code)
-        refuse_folder(folder, "the folder cannot be created: " + code.message());
+    for (fs::path at = folder_; !fs::exists(at, code); at = at.parent_path())
+        ++created_;
+    create_folder(folder);
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code code;
+    for (; created_ > 0 && fs::is_empty(folder_, code) && fs::remove(folder_, code); --created_)
+        folder_ = folder_.parent_path();
 }
 
 void check_output_file(const fs::path &file, const std::vector<std::string> &extensions) {
@@ -84,7 +100,8 @@ void check_output_file(const fs::path &file, const std::vector<std::string> &ext
 
 void prepare_output_file(const fs::path &file, const std::vector<std::string> &extensions) {
     check_output_file(file, extensions);
-    prepare_output_folder(file.parent_path());
+    check_output_folder(file.parent_path());
+    create_folder(file.parent_path());
 }
 
 } // namespace tsuya::scene

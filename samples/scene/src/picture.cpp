@@ -34,8 +34,8 @@ std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
         NamedLamp lamp{file_stem_of(spec), parse_lamp(spec, folder)};
         if (std::any_of(lamps.begin(), lamps.end(),
                         [&](const NamedLamp &other) { return other.name == lamp.name; }))
-            throw Error(
-                {"lamp '" + lamp.name + "' is named twice", "lamps", "expected each lamp once"});
+            throw Error({"two lamps have the name '" + lamp.name + "', the last is " + spec,
+                         "lamps", "expected each lamp once, and files of different names"});
         lamps.push_back(std::move(lamp));
     }
     return lamps;

@@ -9,6 +9,7 @@
 #include "tsuya/garment/mesh_file.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/light_group.h"
 
 namespace tsuya::scene {
 namespace {
@@ -67,6 +68,7 @@ std::optional<Spectrum> SceneReader::colour(const Section &section, const char *
 LightGroupIndex SceneReader::group(const Section &section, const std::string &otherwise) {
     const std::string name = section.text("group").value_or(otherwise);
     auto &groups = file_.light_groups;
+    note(section, "group", [&] { check_light_group(name, "group"); });
     const auto found = std::find(groups.begin(), groups.end(), name);
     const auto index = static_cast<std::uint32_t>(found - groups.begin());
     if (found == groups.end())

@@ -44,7 +44,8 @@ std::vector<NamedDye> parse_dyes(const TryOn &job) {
         NamedDye dye{file_stem_of(spec), parse_dye(spec)};
         if (std::any_of(dyes.begin(), dyes.end(),
                         [&](const NamedDye &other) { return other.name == dye.name; }))
-            throw Error({"dye '" + dye.name + "' is named twice", "dye", "expected each dye once"});
+            throw Error({"two dyes have the name '" + dye.name + "', the last is " + spec, "dye",
+                         "expected each dye once, and files of different names"});
         dyes.push_back(std::move(dye));
     }
     return dyes;
@@ -243,7 +244,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     std::optional<garment::AnimatedGarment> show;
     if (!stage.further.empty())
         show.emplace(stage.meshes.file(0), stage.meshes.options(0), job.garment.string(), progress);
-    prepare_output_folder(job.output);
+    const OutputFolder folder(job.output);
 
     TryOnResult result{.report = std::move(stage.shown.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};

@@ -1,4 +1,5 @@
 #include "tsuya/sdk/scene.h"
+#include "tsuya/sdk/light_group.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,12 @@ struct SceneCheck {
     void lights() {
         need(!scene.light_groups.empty(), "the scene has no light group", "light_groups",
              "expected at least one");
+        for (std::size_t i = 0; i < scene.light_groups.size(); ++i)
+            try {
+                check_light_group(scene.light_groups[i], "light_groups[" + std::to_string(i) + "]");
+            } catch (const Error &error) {
+                problems.add(error);
+            }
         need(!scene.rectangles.empty() || scene.environment, "the scene has no light", "lights",
              "expected a rectangle or an environment");
         for (std::size_t i = 0; i < scene.rectangles.size(); ++i) {

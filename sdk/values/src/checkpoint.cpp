@@ -31,7 +31,8 @@ CheckpointReader::CheckpointReader(const std::filesystem::path &file, std::strin
     std::uint64_t print = 0;
     value(print);
     if (print != fingerprint)
-        throw Error({"the checkpoint is of other input or other settings", file.string(),
+        throw Error({"the checkpoint is of other input or other settings, or damaged",
+                     file.string(),
                      std::string("expected the same as in the interrupted run; ") + kAnew});
 }
 

@@ -24,11 +24,14 @@ std::string read_file(const std::filesystem::path &file) {
         throw Error({"it is a folder", file.string(), "expected a file"});
     std::ifstream in(file, std::ios::binary);
     if (!in)
-        throw Error(
-            {std::string("the file cannot be opened: ") + std::strerror(errno), file.string(), ""});
+        throw Error({std::string("the file cannot be opened: ") + std::strerror(errno),
+                     file.string(), "expected a file that may be read"});
+    if (std::filesystem::is_character_file(file, code) ||
+        std::filesystem::is_block_file(file, code))
+        throw Error({"it is a device", file.string(), "expected a file or a pipe"});
     std::string bytes{std::istreambuf_iterator<char>(in), {}};
     if (in.bad())
-        throw Error({"the file cannot be read", file.string(), ""});
+        throw Error({"the file cannot be read", file.string(), "expected a file that may be read"});
     return bytes;
 }
 

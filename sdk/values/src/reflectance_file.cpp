@@ -105,6 +105,9 @@ class TableReader {
         std::replace_if(
             name.begin(), name.end(), [](char c) { return c == '_' || c == ' '; }, '-');
         if (const auto symmetry = symmetry_named(name)) {
+            if (frame_.symmetry_declared && frame_.symmetry != *symmetry)
+                problem("the symmetry is '" + value + "', and another one above", 1,
+                        "expected one symmetry");
             frame_.symmetry = *symmetry;
             frame_.symmetry_declared = true;
         } else {

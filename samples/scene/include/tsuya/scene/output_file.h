@@ -2,6 +2,7 @@
 /// \file
 /// Places for results, tried before the long work that makes them.
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,7 +24,19 @@ void prepare_output_file(const std::filesystem::path &file,
 /// created.
 void check_output_folder(const std::filesystem::path &folder);
 
-/// The same, and creates the folder.
-void prepare_output_folder(const std::filesystem::path &folder);
+/// A folder for results, created where it is missing. What was created and is still empty at the
+/// end is removed again.
+class OutputFolder {
+  public:
+    /// Throws Error as check_output_folder, and where the folder cannot be created.
+    explicit OutputFolder(const std::filesystem::path &folder);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder &) = delete;
+    OutputFolder &operator=(const OutputFolder &) = delete;
+
+  private:
+    std::filesystem::path folder_;
+    std::size_t created_ = 0; ///< folders, this one and those around it
+};
 
 } // namespace tsuya::scene
