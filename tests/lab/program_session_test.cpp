@@ -53,13 +53,14 @@ class StateLine final : public OutputLine {
 };
 
 /// Drives that do not stand at 0 with their axes, and of which two turn the other way.
-std::string rig_text(const std::filesystem::path &state) {
+/// \param camera the program, as words of the command
+std::string rig_text(const std::filesystem::path &state, const std::string &camera, int timeout_s) {
     const std::string folder = state.string();
     std::string text = "schema = \"tsuya-rig 1\"\n[lamp]\nkind = \"led\"\nwarm_up_s = 1\n"
-                       "restrike_s = 0\nmin_on_s = 0\nhold_s = 600\n[camera]\ncommand = [\"" +
-                       std::string(TSUYA_VIRTUAL_CAMERA) + "\", \"" + folder + "/a.rig.toml\", \"" +
-                       folder +
-                       "\", \"{file}\", \"{exposure}\"]\ntimeout_s = 6\nexposures_s = [1]\n"
+                       "restrike_s = 0\nmin_on_s = 0\nhold_s = 600\n[camera]\ncommand = [" +
+                       camera + ", \"" + folder + "/a.rig.toml\", \"" + folder +
+                       "\", \"{file}\", \"{exposure}\"]\ntimeout_s = " + std::to_string(timeout_s) +
+                       "\nexposures_s = [1]\n"
                        "black = 512\nsaturation = 15800\ne_per_dn = 2.5\nread_noise_e = 4\n"
                        "pixel_mm = 0.05\n[sample]\ndrive = \"command\"\n"
                        "command = [\"/bin/sh\", \"-c\", \"echo {sample} > " +
@@ -78,8 +79,10 @@ std::string rig_text(const std::filesystem::path &state) {
 /// A rig of programs, and a session on it.
 class ProgramSession {
   public:
-    explicit ProgramSession(std::vector<double> lights_deg = {0}) {
-        write_file(rig_file(), rig_text(scratch_.folder()));
+    explicit ProgramSession(std::vector<double> lights_deg = {0},
+                            const std::string &camera = "\"" TSUYA_VIRTUAL_CAMERA "\"",
+                            int timeout_s = 6) {
+        write_file(rig_file(), rig_text(scratch_.folder(), camera, timeout_s));
         rig_ = read_rig_file(rig_file());
         Directions views;
         for (const double theta_i : lights_deg)
@@ -142,6 +145,22 @@ TEST(ProgramSession, MeasuresTheClothThatTheProgramSees) {
     ASSERT_EQ(measured.channels[0].views.size(), 6u);
     for (const MeasuredView &view : measured.channels[0].views)
         EXPECT_NEAR(view.brdf_per_sr / test::virtual_cloth(view.directions), 1, 0.005);
+}
+
+// The pictures are on a card, from which gphoto2 downloads them. A camera that did not expose has
+// nothing to be downloaded.
+TEST(ProgramSession, TakesWhatGphoto2Downloads) {
+    if (std::system("command -v gphoto2 >/dev/null") != 0)
+        GTEST_SKIP() << "no gphoto2 (samples/install-packages test)";
+    constexpr int kTimeout_s = 60; // three programs one after the other
+    ProgramSession made({0}, "\"" TSUYA_GPHOTO2_CAMERA "\", \"" TSUYA_VIRTUAL_CAMERA "\"",
+                        kTimeout_s);
+    ASSERT_EQ(made.run("1 no_file\n").missing(), 0u);
+    const Session session = made.session();
+    for (const CountedFrame &frame : session.frames)
+        EXPECT_EQ(read_file(frame.file), made.state(("card" / frame.file.filename()).c_str()));
+    ASSERT_EQ(session.rejected.size(), 1u);
+    EXPECT_NE(session.rejected[0].why.find("gphoto2 does not list"), std::string::npos);
 }
 
 struct FaultCase {
