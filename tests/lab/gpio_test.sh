@@ -1,11 +1,11 @@
 #!/bin/bash
 # Lamp and shutter on a real GPIO character device, in a small virtual machine.
-# gpio_test.sh KERNEL GPIO_PULSES GPIO_WATCH (LAB_PROGRAM (ROOT))
+# gpio_test.sh KERNEL ROOT GPIO_PULSES GPIO_WATCH (LAB_PROGRAM)
 #   KERNEL  the folder that gpio_bed/prepare fills; where it could not, the test is skipped (status 77)
-#   ROOT    of the system that the programs are from, if not this one
+#   ROOT    of the system that the programs are from; empty for this one
 set -euo pipefail
 
-kernel=$1 pulses=$2 watch=$3 tsuya=${4:-} root=${5:-}
+kernel=$1 root=$2 pulses=$3 watch=$4 tsuya=${5:-}
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 bed=$here/gpio_bed/run
 "$here/gpio_bed/prepare" "$kernel"
@@ -26,6 +26,7 @@ status=0
 
 # Virtual time: the load of this computer does not show in the times.
 "$bed" --warp --chip 'board:8:0=lamp,1=shutter,2=interlock,3=twice,5=!held' \
-    --chip spare:4:0=twice,1=spare_lamp --with "$here/gpio_guest.sh=/gpio_guest.sh" --root "$root" \
-    --with "$pulses=/gpio_pulses" --with "$watch=/gpio_watch" ${tsuya:+--with "$tsuya=/tsuya"} \
-    "$kernel" sh /gpio_guest.sh /gpio_pulses /gpio_watch ${tsuya:+/tsuya}
+    --chip spare:4:0=twice,1=spare_lamp --with "$here/gpio_checks.sh=/gpio_checks.sh" \
+    --with "$here/gpio_guest.sh=/guest.sh" ${tsuya:+--with "$tsuya=/tsuya"} --root "$root" \
+    --with "$pulses=/gpio_pulses" --with "$watch=/gpio_watch" \
+    "$kernel" sh /guest.sh /gpio_pulses /gpio_watch ${tsuya:+/tsuya}

@@ -2,7 +2,7 @@
 # The first process of the guest: simulated GPIO chips as /chips says, then the command in /command.
 # The status of the command, plus one, goes to the host by the port of QEMU's device isa-debug-exit.
 #   /gpio/NAME, /gpio/LABEL/OFFSET  folders of a line: `value` is its level, `pull` what drives an input
-#   gpio-trace                      every access so far: seconds line set|get value
+#   gpio-trace                      what was driven so far: seconds line set value
 /busybox mkdir -p /bin /proc /sys /dev /tmp /gpio
 /busybox --install -s /bin
 export PATH=/bin HOME=/tmp LC_ALL=C
@@ -72,6 +72,7 @@ done
 cd /sys/kernel/tracing
 echo mono >trace_clock
 echo 4096 >buffer_size_kb
+echo 'get == 0' >events/gpio/gpio_value/filter # a session reads its interlock often
 echo 1 >events/gpio/gpio_value/enable
 cd /tmp
 cat >/bin/gpio-trace <<'END'
