@@ -3,6 +3,7 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
+#include <utility>
 
 #include "command.h"
 #include "json.h"
@@ -28,9 +29,9 @@ struct LabPlan final : Command {
         o.argument(&rig_file, "RIG.toml", "rig file").required();
         o.option("-o,--output", &output, "PLAN.jsonl", "plan of the session").required().result();
         o.option("--views", &views, "VIEWS",
-                 "directions to measure: few:STEP, views every STEP degrees under light along the "
-                 "normal; paper, the set of Takeda et al.; or a table of reflectance, for its "
-                 "directions")
+                 "directions to measure: few:STEP, views every STEP degrees (0.5 to 90), light "
+                 "along the normal; paper, the set of Takeda et al.; or a table of reflectance, "
+                 "for its directions")
             .or_file();
         o.option("--symmetry", &symmetry, "S",
                  "symmetry of the cloth, whose repeated views few:STEP leaves out; without it, "
@@ -54,13 +55,15 @@ struct LabPlan final : Command {
         if (!picture.empty())
             scene::check_output_file(picture, {".svg"});
         const lab::RigFile rig = lab::read_rig_file(rig_file);
-        const lab::Plan plan = lab::make_plan(
-            rig,
-            {.directions = lab::views_named(views, symmetry_named(symmetry.value_or(""))),
-             .views = views,
-             .rig = std::filesystem::absolute(rig_file).lexically_normal(),
-             .white = white == kWhites[0] ? lab::WhiteUse::each_light : lab::WhiteUse::each_view,
-             .white_every = static_cast<std::size_t>(white_every)});
+        const Directions directions =
+            lab::views_named(views, symmetry_named(symmetry.value_or("")));
+        const lab::Plan plan =
+            lab::make_plan(rig, {.directions = directions,
+                                 .views = views,
+                                 .rig = std::filesystem::absolute(rig_file).lexically_normal(),
+                                 .white = white == kWhites[0] ? lab::WhiteUse::each_light
+                                                              : lab::WhiteUse::each_view,
+                                 .white_every = static_cast<std::size_t>(white_every)});
         scene::prepare_output_file(output, {".jsonl"});
         lab::write_plan(plan, output);
         if (!picture.empty()) {
@@ -69,9 +72,9 @@ struct LabPlan final : Command {
         }
         const lab::PlanEstimate sum = lab::estimate(plan, rig);
         if (json)
-            print_json(plan, sum);
+            print_json(directions, plan, sum);
         else
-            print(plan, sum);
+            print(directions, plan, sum);
         return kDone;
     }
 
@@ -90,14 +93,39 @@ struct LabPlan final : Command {
         return counts;
     }
 
-    void print(const lab::Plan &plan, const lab::PlanEstimate &sum) const {
-        std::cout << detail::counted(sum.frames, "frame") << " of "
-                  << detail::counted(sum.views, "view") << ":";
+    /// How many views of the cloth are planned, each in all exposures.
+    static std::size_t planned(const lab::Plan &plan) {
+        std::size_t count = 0, view = SIZE_MAX;
+        for (const lab::PlannedFrame &frame : plan.frames)
+            if (frame.kind == lab::FrameKind::cloth &&
+                frame.view != std::exchange(view, frame.view))
+                ++count;
+        return count;
+    }
+
+    /// What was asked for, and what becomes of it.
+    void print_views(const Directions &directions, const lab::Plan &plan) const {
+        std::cout << views << ": " << detail::counted(directions.pairs.size(), "view")
+                  << " of the cloth";
+        if (directions.repeated > 0)
+            std::cout << ", distinct ones of " << directions.pairs.size() + directions.repeated;
+        const std::size_t taken = planned(plan), left_out = plan.left_out.size();
+        if (taken + left_out < directions.pairs.size())
+            std::cout << ", " << directions.pairs.size() - taken - left_out
+                      << " of them given more than once";
+        std::cout << "; " << taken << " planned, " << left_out << " left out";
+        const char *separator = ": ";
+        for (const auto &[reason, count] : reasons(plan))
+            std::cout << std::exchange(separator, ", ") << reason << " " << count;
+        std::cout << "\n";
+    }
+
+    void print(const Directions &directions, const lab::Plan &plan,
+               const lab::PlanEstimate &sum) const {
+        print_views(directions, plan);
+        std::cout << detail::counted(sum.frames, "frame") << ":";
         for (const auto &[kind, count] : kinds(plan))
             std::cout << " " << kind << " " << count;
-        std::cout << "\n" << detail::counted(plan.left_out.size(), "view") << " left out:";
-        for (const auto &[reason, count] : reasons(plan))
-            std::cout << " " << reason << " " << count;
         std::cout << "\nmoves:";
         for (std::size_t i = 0; i < lab::kAxes; ++i)
             std::cout << " " << lab::name_of(static_cast<lab::AxisName>(i)) << " " << sum.moves[i];
@@ -108,8 +136,12 @@ struct LabPlan final : Command {
                   << output.string() << "\n";
     }
 
-    static void print_json(const lab::Plan &plan, const lab::PlanEstimate &sum) {
+    static void print_json(const Directions &directions, const lab::Plan &plan,
+                           const lab::PlanEstimate &sum) {
         Json report{{"schema", "tsuya-lab-plan 1"},
+                    {"asked", directions.pairs.size()},
+                    {"repeated", directions.repeated},
+                    {"planned", planned(plan)},
                     {"frames", sum.frames},
                     {"views", sum.views},
                     {"kinds", Json::object()},

@@ -36,14 +36,27 @@ std::vector<PlannedFrame> views_of(const Plan &plan, FrameKind kind) {
 TEST(ViewsNamed, AreThoseOfThePaperAndFew) {
     EXPECT_EQ(views_named("few:5", Symmetry::orthotropic).pairs.size(), 324u);
     EXPECT_EQ(views_named("few:5", {}).pairs.size(), 613u);
-    EXPECT_EQ(views_named("paper", {}).pairs.size(), 33424u);
-    for (const char *wrong : {"few:", "few:0", "few:91", "few:5x", "few:nan", "absent.csv"})
+    const Directions paper = views_named("paper", {});
+    EXPECT_EQ(paper.pairs.size(), 33424u);
+    EXPECT_EQ(paper.pairs.size() + paper.repeated, 38880u);
+    EXPECT_EQ(views_named("few:5", {}).repeated, 0u);
+    EXPECT_EQ(views_named("few:90", {}).pairs.size(), 1u);
+    EXPECT_EQ(views_named("few:0.5", Symmetry::orthotropic).pairs.size(), 1u + 179u * 181u);
+    for (const char *wrong : {"few:", "few:0", "few:0.49", "few:-5", "few:1e-300", "few:91",
+                              "few:90.1", "few:5x", "few:nan", "few:inf", "absent.csv"})
         EXPECT_THROW(views_named(wrong, {}), Error) << wrong;
     try {
         views_named("fwe:5", {});
         FAIL() << "no error";
     } catch (const Error &error) {
         EXPECT_TRUE(error.problems()[0].accepted.starts_with("expected few:STEP"));
+    }
+    try {
+        views_named("few:0.1", {});
+        FAIL() << "no error";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems()[0].accepted,
+                  "expected few: and a step of 0.5 to 90 degrees, such as few:5");
     }
     const scene::Scratch folder;
     write_reflectance_table({.symmetry = Symmetry::none, .rows = {{.theta_r = 0.5}}},

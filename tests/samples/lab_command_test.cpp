@@ -44,7 +44,25 @@ TEST(LabCommands, PlanSaysWhatASessionWillTake) {
     EXPECT_EQ(plan.rig, std::filesystem::path(TSUYA_RIG_SAMPLE).lexically_normal());
 
     const Outcome told = run({TSUYA_RIG_SAMPLE, "-o", output});
-    EXPECT_NE(told.out.find("views left out: axes.camera "), std::string::npos) << told.out;
+    EXPECT_EQ(told.out.find("few:5: 613 views of the cloth; 540 planned, 73 left out: "
+                            "axes.camera 36, geometry.dead_cone_deg 37\n"),
+              0u)
+        << told.out;
+    EXPECT_EQ(report.at("asked"), 324);
+    EXPECT_EQ(report.at("planned"), 324 - 39);
+    const Outcome paper = run({TSUYA_RIG_SAMPLE, "-o", output, "--views", "paper"});
+    EXPECT_EQ(paper.out.find("paper: 33424 views of the cloth, distinct ones of 38880; "), 0u)
+        << paper.out;
+    const std::string twice =
+        scratch
+            .write("twice.csv", "theta_i_deg,phi_i_deg,theta_r_deg,"
+                                "phi_r_deg,brdf_per_sr\n0,0,30,0,1\n0,0,30,0,1\n")
+            .string();
+    EXPECT_NE(
+        run({TSUYA_RIG_SAMPLE, "-o", output, "--views", twice})
+            .out.find(
+                "2 views of the cloth, 1 of them given more than once; 1 planned, 0 left out\n"),
+        std::string::npos);
     EXPECT_NE(told.out.find("strikes of the lamp 1"), std::string::npos) << told.out;
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", output, "--views", "few:0"}).status, 1);
     EXPECT_EQ(run({TSUYA_RIG_SAMPLE, "-o", output, "--symmetry", "round"}).status, 2);

@@ -15,6 +15,8 @@ namespace tsuya::lab {
 namespace {
 
 constexpr double kReferenceTheta = 45 * kDegree;
+constexpr double kFinestStep_deg = 0.5; // of few:STEP: 129,000 views without a symmetry
+constexpr double kCoarsestStep_deg = 90;
 
 std::string joined(const Error &error) {
     std::string text;
@@ -135,9 +137,10 @@ Directions views_named(const std::string &name, std::optional<Symmetry> symmetry
     double step_deg = 0;
     const char *const end = name.data() + name.size();
     const auto [rest, code] = std::from_chars(name.data() + 4, end, step_deg);
-    if (code != std::errc() || rest != end || !(step_deg > 0 && step_deg <= 90))
+    if (code != std::errc() || rest != end ||
+        !(step_deg >= kFinestStep_deg && step_deg <= kCoarsestStep_deg))
         throw Error({"'" + name + "' is no set of views", "views",
-                     "expected few: and a step above 0 and up to 90 degrees, such as few:5"});
+                     "expected few: and a step of 0.5 to 90 degrees, such as few:5"});
     return normal_incidence(step_deg, symmetry.value_or(Symmetry::half_turn));
 }
 

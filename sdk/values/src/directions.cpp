@@ -1,5 +1,7 @@
 #include "tsuya/sdk/directions.h"
 
+#include <cmath>
+
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
@@ -12,6 +14,11 @@ void check_step(double step_deg, const char *where) {
     if (!(step_deg > 0 && step_deg <= 90))
         throw Error({"the step of the directions is " + std::to_string(step_deg) + " degrees",
                      where, "expected a step above 0 and up to 90"});
+}
+
+// Of the angles 0, step, 2 step and so on how many lie below the end.
+std::size_t steps_below(double end_deg, double step_deg) {
+    return static_cast<std::size_t>(std::ceil((end_deg - kSlack) / step_deg));
 }
 
 // Adds views every step: theta below 90, phi from 0 to phi_end; straight up once.
@@ -42,10 +49,14 @@ Directions normal_incidence(double step_deg, Symmetry symmetry) {
 Directions paper_directions(double theta_step_deg, double phi_step_deg) {
     check_step(theta_step_deg, "theta_step_deg");
     check_step(phi_step_deg, "phi_step_deg");
+    constexpr std::size_t kLights = 6 * 3; // as printed: straight down at each of its azimuths
     Directions directions;
     for (int theta_deg = 0; theta_deg < 90; theta_deg += 15)
         for (int phi_deg = 0; phi_deg <= (theta_deg > 0 ? 90 : 0); phi_deg += 45)
             add_views(directions, theta_deg, phi_deg, theta_step_deg, phi_step_deg, 360 - kSlack);
+    directions.repeated =
+        kLights * steps_below(90, theta_step_deg) * steps_below(360, phi_step_deg) -
+        directions.pairs.size();
     return directions;
 }
 

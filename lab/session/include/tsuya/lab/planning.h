@@ -13,7 +13,7 @@ namespace tsuya::lab {
 /// The views of `few:STEP` (light from straight above, every STEP degrees, as far as the symmetry
 /// does not repeat them; half-turn where none is given), `paper` (the set of [Takeda]; no symmetry
 /// where none is given) or a table's file (its own symmetry where none is given). Throws Error for
-/// other names, a step outside (0, 90], a file that is no table.
+/// other names, a step outside 0.5 to 90 degrees, a file that is no table.
 Directions views_named(const std::string &name, std::optional<Symmetry> symmetry);
 
 /// What is to be planned.

@@ -27,6 +27,8 @@ struct DirectionPair {
 struct Directions {
     std::vector<DirectionPair> pairs{};
     Symmetry symmetry = Symmetry::none; ///< written into the table
+    /// Pairs that the set also lists, each equal to one in `pairs`.
+    std::size_t repeated = 0;
 };
 
 /// Light from straight above and one quadrant of views, both angles every `step_deg` below (theta)
