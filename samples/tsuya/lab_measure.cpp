@@ -90,7 +90,7 @@ struct LabMeasure final : Command {
         o.option("--without", &without, "LIST",
                  "corrections that are not made, to see what they do")
             .with_commas()
-            .one_of({"dark", "trap", "drift"});
+            .one_of({"black", "dark", "flat", "monitor", "trap", "drift"});
         o.example("tsuya lab measure satin/ -o satin.csv --report satin.json --html satin.html");
     }
 
@@ -137,7 +137,8 @@ struct LabMeasure final : Command {
     void check_output(const lab::Session &session) const {
         const auto *const standard = std::get_if<std::filesystem::path>(&session.rig.white.rho_std);
         for (const std::filesystem::path &read :
-             {standard ? *standard : std::filesystem::path(), session.rig.camera.response})
+             {standard ? *standard : std::filesystem::path(), session.rig.camera.response,
+              session.rig.camera.flat})
             if (!read.empty() && is_same_file(output, read))
                 throw WrongCall(Problem{"it would replace a file of the session", output.string(),
                                         "expected another name"});
@@ -150,7 +151,12 @@ struct LabMeasure final : Command {
         const auto on = [&](const char *name) {
             return std::find(without.begin(), without.end(), name) == without.end();
         };
-        settings.corrections = {.dark = on("dark"), .trap = on("trap"), .drift = on("drift")};
+        settings.corrections = {.black = on("black"),
+                                .dark = on("dark"),
+                                .flat = on("flat"),
+                                .monitor = on("monitor"),
+                                .trap = on("trap"),
+                                .drift = on("drift")};
         return settings;
     }
 

@@ -33,12 +33,15 @@ VirtualSession satin_session(std::uint32_t seed) {
     return session;
 }
 
-/// What a fabric fitted to the table is worth against the truth.
-ErrorMeasures fitted(const ReflectanceTable &table) {
-    const Fabric fabric{
-        .name = "measured",
-        .specular = CarriedViews{.bard = Bard::fit(table, "measured"), .model = ViewModel::takeda}};
+/// What a fabric of a fitted surface is worth against the truth.
+ErrorMeasures error_of(const Bard &bard) {
+    const Fabric fabric{.name = "measured",
+                        .specular = CarriedViews{.bard = bard, .model = ViewModel::takeda}};
     return measure_accuracy(satin(), make_model("takeda", fabric, "measured")).mean;
+}
+
+ErrorMeasures fitted(const ReflectanceTable &table) {
+    return error_of(Bard::fit(table, "measured"));
 }
 
 std::string text_of(const ErrorMeasures &error) {
@@ -74,22 +77,25 @@ TEST_P(ClosedLoop, FindsTheSatinAgainAndNotWithACorrectionOff) {
     EXPECT_EQ(measured.left_out[1].reason, LeftOutReason::missing);
     EXPECT_EQ(measured.left_out[1].view, test::plan_view(session.plan, 200));
 
-    const ErrorMeasures error = fitted(measured.channels[0].table);
+    const Bard bard = Bard::fit(measured.channels[0].table, "measured");
+    const ErrorMeasures error = error_of(bard);
     std::printf("seed %u: %s\n", GetParam(), text_of(error).c_str());
     EXPECT_TRUE(passes(error)) << text_of(error);
-    // The fit depends on the errors that the table tells: what the exact truth with the same errors
-    // gives is not the measuring's fault.
+    // The fit depends on the errors that the table tells and on the smoothness that it finds: two
+    // supports of its kernel leave nearly the same residuals, 0.007 of log_p95 lie between them,
+    // and noise decides. What the exact truth with the same errors and smoothness gives is not the
+    // measuring's fault.
     ReflectanceTable exact = measured.channels[0].table;
     for (ReflectanceRow &row : exact.rows)
         row.brdf_per_sr = made.scene.cloth({row.theta_i, row.phi_i, row.theta_r, row.phi_r});
-    const ErrorMeasures of_exact = fitted(exact);
-    std::printf("seed %u exact truth: %s\n", GetParam(), text_of(of_exact).c_str());
-    // 0.005 was asked for, 0.0006 to 0.0067 is found: without noise the fit takes a finer kernel.
-    EXPECT_LT(*error.log_p95, *of_exact.log_p95 + 0.008);
+    const ErrorMeasures of_exact = error_of(Bard::fit(exact, bard.smoothness(), "exact"));
+    std::printf("seed %u exact truth: %s, of another smoothness: %s\n", GetParam(),
+                text_of(of_exact).c_str(), text_of(fitted(exact)).c_str());
+    EXPECT_LT(*error.log_p95, *of_exact.log_p95 + 0.005);
     for (const auto &[name, corrections] :
          {std::pair<const char *, Corrections>{"drift", {.drift = false}},
           {"trap", {.trap = false}},
-          {"dark", {.dark = false}}}) {
+          {"black", {.black = false}}}) {
         const SessionMeasurement without = measure_session(
             session, {.repeat_mm = made.scene.repeat_mm, .corrections = corrections});
         const ErrorMeasures worse = fitted(without.channels[0].table);
@@ -133,6 +139,23 @@ double glossy(const DirectionPair &at) {
     return 5 * top + 2.5e-4;
 }
 
+/// Largest errors of a table of `glossy`.
+struct Misses {
+    double bright = 0; ///< relative, of views above 0.01 /sr
+    double sigmas = 0;
+};
+
+Misses misses_of(const SessionMeasurement &measured) {
+    Misses misses;
+    for (const MeasuredView &view : measured.channels[0].views) {
+        const double off = std::abs(view.brdf_per_sr - glossy(view.directions));
+        misses.sigmas = std::max(misses.sigmas, off / view.sigma_per_sr());
+        if (view.brdf_per_sr > 0.01)
+            misses.bright = std::max(misses.bright, off / glossy(view.directions));
+    }
+    return misses;
+}
+
 TEST_P(ClosedLoop, BracketsHoldANarrowLobeUnderAnyLight) {
     const Scratch folder;
     VirtualSession made;
@@ -148,22 +171,24 @@ TEST_P(ClosedLoop, BracketsHoldANarrowLobeUnderAnyLight) {
     made.white_every = 8;
     made.camera_lines = "exposures_s = [0.003, 0.03, 0.3, 3, 10]\n";
     made.camera.seed = GetParam();
+    made.camera.black_shift = 20; // the sensor is warmer than when the rig file was written
     const Session session = make_virtual_session(folder / "s", made);
     const MeasureSettings settings{.repeat_mm = made.scene.repeat_mm};
     const SessionMeasurement measured = measure_session(session, settings);
     EXPECT_EQ(measured.left_out.size(), 0u) << named(measured);
-    double worst = 0, worst_sigmas = 0;
-    for (const MeasuredView &view : measured.channels[0].views) {
-        const double off = std::abs(view.brdf_per_sr - glossy(view.directions));
-        worst_sigmas = std::max(worst_sigmas, off / view.sigma_per_sr());
-        if (view.brdf_per_sr > 0.01)
-            worst = std::max(worst, off / glossy(view.directions));
-    }
-    std::printf("seed %u: worst bright view %.4f, worst of all %.1f sigma\n", GetParam(), worst,
-                worst_sigmas);
-    EXPECT_LT(worst, 0.03);
-    EXPECT_LT(worst_sigmas, 4.5);
+    const Misses misses = misses_of(measured);
+    std::printf("seed %u: worst bright view %.4f, worst of all %.1f sigma\n", GetParam(),
+                misses.bright, misses.sigmas);
+    EXPECT_LT(misses.bright, 0.03);
+    EXPECT_LT(misses.sigmas, 4.5);
     EXPECT_GT(within_two_sigma(measured.channels[0], made.scene), 0.90);
+    // What the sensor adds to each frame weighs most in the shortest ones. In views that use the
+    // trap's exposures the trap takes it off, so that the dark frames are not missed there.
+    const Misses no_dark = misses_of(measure_session(
+        session, {.repeat_mm = made.scene.repeat_mm, .corrections = {.dark = false}}));
+    std::printf("seed %u without dark: worst bright view %.4f, worst of all %.1f sigma\n",
+                GetParam(), no_dark.bright, no_dark.sigmas);
+    EXPECT_GT(no_dark.sigmas, 4.5) << "the negative control";
     // One exposure cannot hold the range.
     Session single = session;
     std::erase_if(single.frames, [](const CountedFrame &frame) {

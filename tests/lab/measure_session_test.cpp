@@ -5,10 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "lab/virtual_session.h"
+#include "lab/small_session.h"
 #include "samples/scratch.h"
 #include "tsuya/color/camera_frame.h"
-#include "tsuya/lab/frame_reader.h"
 #include "tsuya/lab/view_geometry.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -16,31 +15,7 @@
 namespace tsuya::lab {
 namespace {
 
-using scene::Scratch, test::VirtualSession;
-
-/// A cloth that is darker towards the horizon, under two lights.
-VirtualSession small_session() {
-    VirtualSession session;
-    session.directions.symmetry = Symmetry::half_turn;
-    for (const double theta_i : {0.0, 30.0})
-        for (const double theta_r : {10.0, 20.0, 40.0, 60.0, 70.0})
-            for (const double phi_r : {0.0, 40.0, 120.0})
-                session.directions.pairs.push_back(
-                    {theta_i * kDegree, 0.2 * (theta_i > 0), theta_r * kDegree, phi_r * kDegree});
-    session.scene = {.cloth = [](const DirectionPair &d) { return 0.05 * std::cos(d.theta_r); },
-                     .flicker = 0};
-    session.white_every = 7;
-    return session;
-}
-
-/// Largest relative error.
-double worst_of(const ChannelMeasurement &channel, const VirtualSession &session) {
-    double worst = 0;
-    for (const MeasuredView &view : channel.views)
-        worst =
-            std::max(worst, std::abs(view.brdf_per_sr / session.scene.cloth(view.directions) - 1));
-    return worst;
-}
+using scene::Scratch, test::VirtualSession, test::small_session, test::worst_of;
 
 TEST(MeasureSession, FindsTheReflectanceOfEveryView) {
     const Scratch folder;
@@ -144,6 +119,59 @@ TEST(MeasureSession, NamesWhatItLeavesOut) {
     EXPECT_STREQ(name_of(LeftOutReason::wrong_exposure), "wrong-exposure");
 }
 
+/// Overwrites the frames of one direction of light, as under a lamp that has gone out.
+void darken(const Session &session, double theta_i) {
+    for (const CountedFrame &frame : session.frames)
+        if (frame.planned.kind != FrameKind::dark &&
+            std::abs(frame.planned.directions.theta_i - theta_i) < 1e-6) {
+            CameraFrame picture = read_frame(frame.file);
+            std::fill(picture.image.data.begin(), picture.image.data.end(), 513.0f);
+            write_frame(frame.file, picture);
+        }
+}
+
+// A row of 0 would say that the cloth is black there.
+TEST(MeasureSession, LightsThatNoFrameMeasuredHaveNoRows) {
+    const Scratch folder;
+    const VirtualSession made = small_session();
+    const Session session = make_virtual_session(folder / "s", made);
+    const auto expect_one_light = [](const SessionMeasurement &measured, LeftOutReason reason) {
+        EXPECT_EQ(measured.channels[0].table.rows.size(), 15u);
+        for (const ReflectanceRow &row : measured.channels[0].table.rows) {
+            EXPECT_LT(row.theta_i, 1e-6);
+            EXPECT_GT(row.brdf_per_sr, 0.01);
+        }
+        EXPECT_EQ(reasons(measured), std::vector<LeftOutReason>(15, reason));
+    };
+    Session half = session; // as where the session was ended early
+    std::erase_if(half.frames, [&](const CountedFrame &frame) {
+        const bool second = frame.planned.directions.theta_i > 0.1;
+        if (second)
+            half.missing.push_back(*frame.number);
+        return second;
+    });
+    expect_one_light(measure_session(half), LeftOutReason::missing);
+    darken(session, 30 * kDegree);
+    const SessionMeasurement dark = measure_session(session);
+    expect_one_light(dark, LeftOutReason::no_reference);
+    EXPECT_NE(dark.warnings[0].find("4 views of the white standard are dark"), std::string::npos)
+        << dark.warnings[0];
+}
+
+// The trap says what is stray light: what is left of a black view is noise about 0.
+TEST(MeasureSession, ABlackViewBehindStrayLightIsUnderexposed) {
+    const Scratch folder;
+    VirtualSession made = small_session();
+    const DirectionPair black = made.directions.pairs[5];
+    const auto cloth = made.scene.cloth;
+    made.scene.cloth = [=](const DirectionPair &d) { return d == black ? 0.0 : cloth(d); };
+    made.scene.stray = 0.01;
+    const SessionMeasurement measured = measure_session(make_virtual_session(folder / "s", made),
+                                                        {.repeat_mm = made.scene.repeat_mm});
+    EXPECT_EQ(reasons(measured), std::vector{LeftOutReason::underexposed});
+    EXPECT_EQ(measured.channels[0].views.size(), 29u);
+}
+
 // As where the lamp is looked at while it warms up, in one exposure that turns out too long.
 TEST(MeasureSession, ClippedWhiteFramesAreNoReference) {
     const Scratch folder;
@@ -186,22 +214,6 @@ TEST(MeasureSession, NobodyTakesADryRunForAMeasurement) {
     EXPECT_EQ(keys.at("instrument"), "dry run of a camera goniometer");
     EXPECT_EQ(keys.at("camera"), "virtual camera");
     EXPECT_EQ(keys.at("lamp"), "none");
-}
-
-TEST(VirtualCamera, PicturesOfAClippedSampleAreNoCopies) {
-    const Scratch folder;
-    VirtualCamera camera({}, {.black = 512, .saturation = 15800, .e_per_dn = 2.5});
-    std::vector<std::string> bytes;
-    for (const std::size_t n : {0, 1}) {
-        const Shot shot{.number = n,
-                        .planned = {.kind = FrameKind::white, .exposure_s = 100},
-                        .file = folder / (std::to_string(n) + ".tif"),
-                        .time_s = 1e9 + 200 * static_cast<double>(n)};
-        camera.expose(shot);
-        camera.collect(shot);
-        bytes.push_back(read_file(shot.file));
-    }
-    EXPECT_NE(bytes[0], bytes[1]);
 }
 
 TEST(MeasureSession, AJumpOfTheLampCostsTheViewsAboutIt) {
@@ -309,6 +321,17 @@ TEST(MeasureSession, WideLampsAreTold) {
     EXPECT_NE(measured.warnings[0].find("35.49 degrees"), std::string::npos)
         << measured.warnings[0];
     EXPECT_EQ(measured.channels[0].table.keys.at("warning"), measured.warnings[0]);
+    const auto warned = [&](double lamp_mm, double lens_mm) {
+        session.rig.lamp.diameter_mm = lamp_mm;
+        session.rig.camera.aperture_mm = lens_mm;
+        session.rig.camera.distance_mm = 500;
+        const auto warnings = measure_session(session).warnings;
+        return warnings.empty() ? std::string() : warnings[0];
+    };
+    const double third_mm = 1000 * std::tan(measured.narrowest_lobe / 6);
+    EXPECT_EQ(warned(0, 1.1 * third_mm).find("the camera's lens fills "), 0u);
+    EXPECT_EQ(warned(0.8 * third_mm, 0.8 * third_mm).find("lamp and lens together blur over "), 0u);
+    EXPECT_EQ(warned(0.6 * third_mm, 0.6 * third_mm), "");
 }
 
 TEST(MeasureSession, ColoursHaveTablesOfTheirOwn) {
@@ -357,55 +380,6 @@ TEST(MeasureSession, RefusesWhatCannotBeMeasured) {
     other = session;
     other.rig.camera.patch = 50;
     EXPECT_THROW(measure_session(other), Error);
-}
-
-TEST(FrameReader, TellsExposureAndPatch) {
-    const Scratch folder;
-    CameraFrame frame{.image = Image::make(64, 48, {"Y"}), .exposure_s = 2};
-    std::fill(frame.image.data.begin(), frame.image.data.end(), 600.0f);
-    for (int y = 16; y < 32; ++y)
-        for (int x = 24; x < 40; ++x)
-            frame.image.pixel(x, y)[0] = 1000;
-    write_frame(folder / "a.tif", frame);
-    const RigCamera camera{.black = 500, .patch = 16};
-    const FrameFacts facts = read_frame_facts(folder / "a.tif", camera);
-    EXPECT_EQ(facts.exposure_s, 2);
-    EXPECT_DOUBLE_EQ(facts.patch_mean, 500);
-    std::filesystem::resize_file(folder / "a.tif", 3000);
-    EXPECT_THROW(read_frame_facts(folder / "a.tif", camera), Error);
-}
-
-TEST(VirtualCamera, HasTheFaultsOfARealOne) {
-    const Scratch folder;
-    const RigCamera camera{.black = 512, .saturation = 15800, .e_per_dn = 2.5, .read_noise_e = 4};
-    const std::vector<std::optional<CameraFault>> faults{
-        std::nullopt,          CameraFault::busy,     CameraFault::busy,
-        CameraFault::hang,     CameraFault::no_file,  CameraFault::empty_file,
-        CameraFault::cut_file, CameraFault::old_file, CameraFault::wrong_exposure,
-        std::nullopt};
-    VirtualCamera virtual_camera({.cloth = [](const DirectionPair &) { return 0.02; }}, camera,
-                                 {.fault = [&](std::uint64_t n) { return faults[n]; }});
-    const auto take = [&](std::size_t n) {
-        const Shot shot{.number = n,
-                        .planned = {.exposure_s = 1},
-                        .file = folder / (std::to_string(n) + ".tif"),
-                        .time_s = 1e9};
-        virtual_camera.expose(shot);
-        virtual_camera.collect(shot);
-        return shot.file;
-    };
-    const auto first = take(0);
-    const FrameFacts good = read_frame_facts(first, camera);
-    EXPECT_NEAR(good.patch_mean, virtual_camera.dn_per_s({.exposure_s = 1}, 1e9), 40);
-    EXPECT_THROW(take(1), Error);
-    EXPECT_THROW(take(2), Error);
-    EXPECT_THROW(take(3), Error);
-    EXPECT_FALSE(std::filesystem::exists(take(4)));
-    EXPECT_EQ(std::filesystem::file_size(take(5)), 0u);
-    EXPECT_THROW(read_frame_facts(take(6), camera), Error);
-    EXPECT_EQ(read_file(take(7)), read_file(first));
-    EXPECT_EQ(read_frame_facts(take(8), camera).exposure_s, 0.5);
-    EXPECT_NE(read_file(take(9)), read_file(first));
 }
 
 } // namespace

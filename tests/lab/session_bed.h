@@ -56,7 +56,7 @@ inline std::string picture_text(const Shot &shot, double mean, const std::string
     return text.str();
 }
 
-inline FrameFacts read_picture(const std::filesystem::path &file, const RigCamera &) {
+inline FrameFacts read_picture(const std::filesystem::path &file, const RigCamera &, double) {
     std::istringstream text(read_file(file));
     std::string begin, unique, end;
     FrameFacts facts{.exposure_s = 0};

@@ -34,6 +34,23 @@ TEST(ViewGeometry, RaisedWhiteIsSeenOffTheMiddleOfTheSpot) {
     EXPECT_NEAR(raised_irradiance(6, 0, 600, degrees(0, 0, 45, 0)), std::pow(600 / 594.0, 2), 1e-9);
 }
 
+// The same by points in space: the camera's ray meets the raised surface, and the point's distance
+// from the beam's axis says how much light it gets.
+TEST(ViewGeometry, ARaisedSurfaceIsSeenWhereTheCamerasRayMeetsIt) {
+    EXPECT_NEAR(raised_irradiance(1, 30, 0, degrees(0, 0, 75, 0)), 1 - 0.042, 5e-4);
+    for (const double theta_i : {0.0, 20.0, 60.0})
+        for (const double theta_r : {0.0, 45.0, 75.0})
+            for (const double phi : {0.0, 50.0, 90.0, 180.0}) {
+                const DirectionPair at = degrees(theta_i, 10, theta_r, 10 + phi);
+                const glm::dvec3 light = at.to_light(), viewer = at.to_viewer();
+                const glm::dvec3 met = viewer * (1.5 / viewer.z); // 1.5 mm above the plane
+                const double off_axis = glm::length(glm::cross(met, light));
+                EXPECT_NEAR(raised_irradiance(1.5, 30, 0, at),
+                            std::exp(-std::log(2.0) * off_axis * off_axis / (15 * 15)), 1e-12)
+                    << theta_i << " " << theta_r << " " << phi;
+            }
+}
+
 TEST(ViewGeometry, AnglesOfDisks) {
     EXPECT_NEAR(disk_angle(8, 600) / kDegree, 0.764, 1e-3);
     EXPECT_EQ(disk_angle(8, 0), 0);

@@ -16,8 +16,10 @@ std::string rig_text(const VirtualSession &settings) {
     std::string text = "schema = \"tsuya-rig 1\"\n"
                        "[lamp]\nkind = \"metal-halide\"\nserial = \"MH-1\"\n"
                        "[camera]\ncommand = [\"camera\", \"{file}\", \"{exposure}\"]\n"
-                       "black = 512\nsaturation = 15800\ne_per_dn = 2.5\nread_noise_e = 4\n"
-                       "patch = 16\npixel_mm = 0.05\n" +
+                       "black = 512\nsaturation = 15800\npatch = 16\npixel_mm = 0.05\n"
+                       "e_per_dn = " +
+                       std::to_string(settings.e_per_dn) +
+                       "\nread_noise_e = " + std::to_string(settings.read_noise_e) + "\n" +
                        settings.camera_lines + "[white]\n" + settings.white_lines;
     if (settings.white_lines.find("rho_std") == std::string::npos)
         text += "rho_std = 0.99\n";
@@ -113,8 +115,10 @@ lab::Session make_virtual_session(const std::filesystem::path &folder,
         scene.glint_view = plan_view(plan, *settings.glint_view);
     lab::VirtualScene after = scene;
     after.white_dn_per_s *= settings.jump;
+    lab::VirtualCameraSettings camera_after = settings.camera;
+    camera_after.monitor_dn_per_s *= settings.jump;
     lab::VirtualCamera before_jump(scene, rig.camera, settings.camera),
-        after_jump(after, rig.camera, settings.camera);
+        after_jump(after, rig.camera, camera_after);
     const double jump_view =
         settings.jump_at < 1e8
             ? static_cast<double>(plan_view(plan, static_cast<std::size_t>(settings.jump_at)))

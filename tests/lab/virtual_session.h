@@ -15,7 +15,8 @@ struct VirtualSession {
     lab::VirtualCameraSettings camera{.width = 48, .height = 48};
     std::string rig_lines{}; ///< at the end of the rig file: tables of their own
     std::string camera_lines = "exposures_s = [0.1, 1, 10]\n";
-    std::string white_lines{}; ///< in [white]
+    double e_per_dn = 2.5, read_noise_e = 4; ///< of the sensor
+    std::string white_lines{};               ///< in [white]
     lab::WhiteUse white = lab::WhiteUse::each_light;
     std::size_t white_every = 50;
     int dark_frames = 2;                   ///< of each exposure, at either end

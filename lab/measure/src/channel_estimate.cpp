@@ -65,8 +65,9 @@ class ChannelEstimator {
   private:
     /// Of the white standard the patch that the cloth is seen in, of the black trap all there is.
     WhiteReading reading_of(const ViewLight &view, PatchMean PatchLight::*part) const {
-        const PatchMean &mean = view.colours[colour_].*part;
-        return {view.time_s, mean.rate, mean.sigma, view.strike};
+        const PatchLight &light = view.colours[colour_];
+        const PatchMean &mean = light.*part;
+        return {view.time_s, mean.rate, std::hypot(mean.sigma, light.lamp), view.strike};
     }
 
     /// The reference view of a light is that of its first white frame.
@@ -180,9 +181,13 @@ class ChannelEstimator {
         MeasuredView view{.view = cloth.view,
                           .directions = cloth.directions,
                           .time_s = cloth.time_s,
-                          .brdf_per_sr = std::max(scale * (light.middle.rate - stray), 0.0)};
+                          .brdf_per_sr = scale * (light.middle.rate - stray)};
         view.noise = scale * std::hypot(light.middle.sigma, reference.stray_sigma * lamp->rate);
-        view.drift = view.brdf_per_sr * white.drift;
+        if (view.brdf_per_sr <= view.noise) // 0 would be a value, and a wrong one
+            return leave_out(cloth, LeftOutReason::underexposed,
+                             "the light is " + number_text(light.middle.rate - stray) +
+                                 " DN/s, its noise " + number_text(view.noise / scale));
+        view.drift = std::hypot(view.brdf_per_sr * white.drift, scale * light.lamp);
         view.texture = scale * light.texture;
         view.white = white.assumed ? view.brdf_per_sr * session_.rig.white.sigma : 0;
         estimate_.channel.views.push_back(view);

@@ -73,12 +73,15 @@ struct Middle {
 
 Middle read_middle(const CountedFrame &counted, const RigCamera &camera) {
     const CameraFrame header = read_frame_header(counted.file);
-    const PatchGrid grid = grid_of(counted.file, header.width, header.height, camera.patch);
-    const auto shown = [&](int whole) { return std::min(whole, kPatches * grid.side); };
-    const int side = shown(std::min(header.width, header.height));
+    const PatchGrid grid = grid_of(counted.file, header.width, header.height, camera,
+                                   counted.planned.directions.theta_r);
+    const int side = std::min({header.width, header.height, kPatches * grid.side});
     const int margin = (grid.across / 2) * grid.side;
-    FrameSettings settings{
-        .area = PixelArea{(header.width - side) / 2, (header.height - side) / 2, side, side}};
+    const auto begin = [&](int grid_begin, int whole) {
+        return std::clamp(grid_begin + (grid.width() - side) / 2, 0, whole - side);
+    };
+    FrameSettings settings{.area = PixelArea{begin(grid.area.x, header.width),
+                                             begin(grid.area.y, header.height), side, side}};
     if (!camera.response.empty())
         settings.response = read_response_csv(camera.response);
     return {.frame = read_frame(counted.file, settings),

@@ -6,12 +6,13 @@
 
 namespace tsuya::lab {
 
-FrameFacts read_frame_facts(const std::filesystem::path &file, const RigCamera &camera) {
+FrameFacts read_frame_facts(const std::filesystem::path &file, const RigCamera &camera,
+                            double theta_r) {
     FrameSettings settings;
     if (!camera.response.empty())
         settings.response = read_response_csv(camera.response);
     const CameraFrame frame = read_frame(file, settings);
-    const PatchGrid grid = grid_of(file, frame.width, frame.height, camera.patch);
+    const PatchGrid grid = grid_of(file, frame.width, frame.height, camera, theta_r);
     const int margin = (grid.across / 2) * grid.side;
     double sum = 0;
     for (int y = 0; y < grid.side; ++y) {

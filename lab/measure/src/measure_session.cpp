@@ -25,6 +25,10 @@ constexpr const char *kNoFlicker =
     "the lamp's flicker cannot be told, and is in no error: that takes three white frames of one "
     "light or more";
 
+constexpr const char *kNoFlat =
+    "the patch moves in the picture, and without a flat field what the lens takes from the "
+    "picture's edge is in the values";
+
 std::string degrees_text(double angle) { return number_text(angle / kDegree, 4); }
 
 void check(const MeasureSettings &settings, const Session &session) {
@@ -62,11 +66,11 @@ struct Sharpness {
     double value = 0, sigma = 0;
 };
 
-/// Nothing where the cloth is no brighter than stray light.
+/// Nothing where the cloth's own light cannot be told from stray light.
 std::optional<Sharpness> sharpness_of(const ViewLight &view, const SessionLight &light) {
     const PatchMean &patch = view.colours[0].middle;
     const double own = patch.rate - stray_light(light, view.directions);
-    if (own <= 0)
+    if (own < kSureSigmas * patch.sigma)
         return std::nullopt;
     const double scale = (patch.rate / own) * (patch.rate / own);
     return Sharpness{patch.sharpness * scale, patch.sharpness_sigma * scale};
@@ -178,14 +182,19 @@ void add_blur(SessionMeasurement &measured, const RigFile &rig) {
     measured.aperture_angle = disk_angle(rig.camera.aperture_mm, rig.camera.distance_mm);
     measured.narrowest_lobe = narrowest_lobe(measured.channels[0].table);
     const auto warn = [&](const char *what, double angle) {
-        if (angle > kWidestBlur * measured.narrowest_lobe)
+        const bool wide = angle > kWidestBlur * measured.narrowest_lobe;
+        if (wide)
             measured.warnings.push_back(
-                std::string(what) + " fills " + degrees_text(angle) +
+                std::string(what) + " " + degrees_text(angle) +
                 " degrees, more than a third of the narrowest lobe, which is " +
                 degrees_text(measured.narrowest_lobe) + " degrees wide");
+        return wide;
     };
-    warn("the lamp", measured.lamp_angle);
-    warn("the camera's lens", measured.aperture_angle);
+    const bool lamp = warn("the lamp fills", measured.lamp_angle);
+    const bool lens = warn("the camera's lens fills", measured.aperture_angle);
+    if (!lamp && !lens) // their widths add up as those of blurs do
+        warn("lamp and lens together blur over",
+             std::hypot(measured.lamp_angle, measured.aperture_angle));
     for (ChannelMeasurement &channel : measured.channels)
         for (std::size_t i = 0; i < measured.warnings.size(); ++i)
             channel.table.keys["warning" + (i > 0 ? std::to_string(i + 1) : "")] =
@@ -223,6 +232,15 @@ SessionMeasurement measure_session(const Session &session, const MeasureSettings
         measured.warnings.push_back(std::to_string(light.clipped_white) +
                                     " views of the white standard are clipped under every exposure "
                                     "and are not used");
+    if (light.dark_white > 0)
+        measured.warnings.push_back(std::to_string(light.dark_white) +
+                                    " views of the white standard are dark and are not used");
+    if (light.without_monitor > 0)
+        measured.warnings.push_back(std::to_string(light.without_monitor) +
+                                    " views of the white standard or the trap are not used: the "
+                                    "monitor is clipped or dark in them");
+    if (session.rig.camera.patch_at.size() > 1 && session.rig.camera.flat.empty())
+        measured.warnings.emplace_back(kNoFlat);
     if (measured.channels[0].flicker == 0)
         measured.warnings.emplace_back(kNoFlicker);
     measured.channel_difference = difference_of(measured.channels);

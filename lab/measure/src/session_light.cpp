@@ -12,7 +12,21 @@ namespace tsuya::lab {
 namespace {
 
 constexpr double kExposureTolerance = 0.1; // relative, of what a picture says
+constexpr double kSureWhite = 10;          // times its noise: what is darker is no standard
 constexpr double kLargestUnevenness = 2;   // light of two sides of the measured part
+
+/// The mean of all numbers of a dark frame.
+double level_of(const DarkFrame &dark) {
+    double sum = 0;
+    int count = 0;
+    for (const DarkPixels &colour : dark.colours)
+        for (const double dn : colour.dn)
+            if (!std::isnan(dn)) {
+                sum += dn;
+                ++count;
+            }
+    return sum / count;
+}
 
 using Frames = std::vector<const CountedFrame *>;
 
@@ -30,8 +44,11 @@ class SessionLightReader {
         note_missing();
         if (settings_.corrections.dark)
             read_dark();
-        else
-            sensor_.black = 0;
+        if (!settings_.corrections.black)
+            leave_black();
+        const std::filesystem::path &flat = session_.rig.camera.flat;
+        if (settings_.corrections.flat && !flat.empty())
+            flat_ = FlatField(reader_.read_reach(flat, 1), sensor_, flat);
         std::map<std::size_t, Frames> views;
         for (const CountedFrame &frame : session_.frames)
             if (frame.planned.kind != FrameKind::dark)
@@ -65,12 +82,18 @@ class SessionLightReader {
     }
 
     FramePatches read_frame_of(const CountedFrame &frame) {
+        const PlannedFrame &planned = frame.planned;
         if (progress_.stopped())
             throw Interrupted("stopped while the session's frames are read");
         progress_("read frames",
                   static_cast<double>(done_++) /
                       static_cast<double>(std::max<std::size_t>(session_.frames.size(), 1)));
-        FramePatches patches = reader_.read(frame.file, frame.planned.exposure_s);
+        FramePatches patches =
+            planned.kind == FrameKind::dark
+                ? reader_.read_reach(frame.file, planned.exposure_s)
+                : reader_.read(frame.file, planned.exposure_s, planned.directions.theta_r);
+        if (!settings_.corrections.monitor)
+            patches.monitor.clear();
         std::vector<std::string> colours;
         for (const ColourPixels &colour : patches.colours)
             colours.push_back(colour.name);
@@ -83,19 +106,48 @@ class SessionLightReader {
     }
 
     void read_dark() {
-        std::map<double, std::vector<std::vector<ExposedPixels>>> frames; // by colour
-        for (const CountedFrame &frame : session_.frames) {
-            if (frame.planned.kind != FrameKind::dark)
-                continue;
-            const FramePatches patches = read_frame_of(frame);
-            auto &lists = frames[frame.planned.exposure_s];
-            lists.resize(patches.colours.size());
-            for (std::size_t c = 0; c < patches.colours.size(); ++c)
-                lists[c].push_back(patches.colours[c].pixels);
-        }
-        for (const auto &[exposure_s, lists] : frames)
-            for (const auto &list : lists)
-                dark_[exposure_s].push_back(mean_of_dark(list));
+        std::map<double, std::vector<FramePatches>> frames;
+        for (const CountedFrame &frame : session_.frames)
+            if (frame.planned.kind == FrameKind::dark)
+                frames[frame.planned.exposure_s].push_back(read_frame_of(frame));
+        const auto means = [](const std::vector<FramePatches> &list,
+                              std::vector<ColourPixels> FramePatches::*part) {
+            std::vector<DarkPixels> colours;
+            for (std::size_t c = 0; c < (list.front().*part).size(); ++c) {
+                std::vector<ExposedPixels> pixels;
+                for (const FramePatches &patches : list)
+                    pixels.push_back((patches.*part)[c].pixels);
+                colours.push_back(mean_of_dark(pixels));
+            }
+            return colours;
+        };
+        for (const auto &[exposure_s, list] : frames)
+            dark_[exposure_s] = {.area = list.front().grid.area,
+                                 .colours = means(list, &FramePatches::colours),
+                                 .monitor = means(list, &FramePatches::monitor)};
+        find_black();
+    }
+
+    /// Black as it is now, from dark frames of two exposures: what is left without exposure. Dark
+    /// current is electrons and has their noise, black has not.
+    void find_black() {
+        if (dark_.size() < 2)
+            return;
+        const auto &[shortest_s, least] = *dark_.begin();
+        const auto &[longest_s, most] = *dark_.rbegin();
+        const double low = level_of(least),
+                     current = (level_of(most) - low) / (longest_s - shortest_s);
+        sensor_.black = low - current * shortest_s;
+    }
+
+    /// Dark frames hold black and dark current: takes the first out of them.
+    void leave_black() {
+        for (auto &[exposure_s, dark] : dark_)
+            for (auto *const part : {&dark.colours, &dark.monitor})
+                for (DarkPixels &colour : *part)
+                    for (double &dn : colour.dn)
+                        dn -= sensor_.black;
+        sensor_.black = 0;
     }
 
     void read_view(const Frames &frames) {
@@ -123,13 +175,23 @@ class SessionLightReader {
             exposure_s += frame->planned.exposure_s;
         }
         view.time_s /= exposure_s;
-        view.colours = light_of(patches, dark_, sensor_, reader_.grid(), window_of(planned));
+        const auto shares = monitor_.shares_of(patches, dark_, sensor_);
+        if (shares.empty() && planned.kind != FrameKind::cloth)
+            ++light_.without_monitor;
+        if (shares.empty())
+            return leave_out(planned, LeftOutReason::no_reference,
+                             "the monitor is clipped or dark in each of its frames");
+        view.colours = light_of(
+            patches, shares,
+            {.dark = dark_, .sensor = sensor_, .flat = flat_, .window = window_of(planned)});
         keep(planned, std::move(view));
     }
 
     void keep(const PlannedFrame &planned, ViewLight view) {
         if (planned.kind == FrameKind::white && is_clipped(view))
             ++light_.clipped_white;
+        else if (planned.kind == FrameKind::white && is_dark(view))
+            ++light_.dark_white;
         else if (planned.kind == FrameKind::white)
             light_.white.push_back(std::move(view));
         else if (planned.kind == FrameKind::trap)
@@ -141,6 +203,12 @@ class SessionLightReader {
     static bool is_clipped(const ViewLight &view) {
         return std::any_of(view.colours.begin(), view.colours.end(),
                            [](const PatchLight &colour) { return colour.middle.clipped > 0; });
+    }
+
+    static bool is_dark(const ViewLight &view) {
+        return std::any_of(view.colours.begin(), view.colours.end(), [](const PatchLight &colour) {
+            return colour.middle.rate < kSureWhite * colour.middle.sigma;
+        });
     }
 
     bool rejected(const PlannedFrame &planned, const ViewLight &view) {
@@ -161,10 +229,6 @@ class SessionLightReader {
                 return leave(LeftOutReason::saturated,
                              std::to_string(colour.middle.clipped) +
                                  " pixels of the patch are clipped under every exposure");
-            if (colour.middle.rate < 3 * colour.middle.sigma)
-                return leave(LeftOutReason::underexposed,
-                             "the light is " + number_text(colour.middle.rate) +
-                                 " DN/s, its noise " + number_text(colour.middle.sigma));
             if (colour.uneven > kLargestUnevenness)
                 return leave(LeftOutReason::misplaced, "one side of the patch has " +
                                                            number_text(colour.uneven) +
@@ -197,6 +261,8 @@ class SessionLightReader {
     PatchReader reader_;
     Sensor sensor_;
     DarkFrames dark_{};
+    FlatField flat_{};
+    LampMonitor monitor_{};
     std::set<std::size_t> missing_{};
     std::size_t done_ = 0;
     SessionLight light_{};

@@ -14,6 +14,9 @@ struct SessionLight {
     std::vector<LeftOutView> left_out{};
     /// Planned views of the white standard that every exposure clips: not in `white`.
     int clipped_white = 0;
+    int dark_white = 0; ///< and those that are no brighter than their noise, as of a dead lamp
+    /// Views of the standard or the trap whose monitor tells nothing: in neither.
+    int without_monitor = 0;
 };
 
 /// Reads every counted frame's patches. Throws Error where there is no cloth or no white, frames of

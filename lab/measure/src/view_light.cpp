@@ -60,6 +60,60 @@ PatchMean mean_of(const std::vector<PatchMean> &patches) {
     return mean;
 }
 
+/// One colour of a view.
+class ColourLight {
+  public:
+    ColourLight(const std::vector<FramePatches> &frames, std::size_t colour,
+                const LightSettings &settings)
+        : grid_(frames.front().grid), colour_(colour), settings_(settings) {
+        for (const FramePatches &frame : frames) {
+            exposures_.push_back(frame.colours[colour].pixels);
+            const auto at = settings.dark.find(frame.planned_s);
+            if (at == settings.dark.end()) {
+                darks_.emplace_back();
+                continue;
+            }
+            darks_.push_back(at->second.colours[colour]);
+            darks_.back().dn = part_of(darks_.back().dn, at->second.area, grid_.area);
+        }
+    }
+
+    PatchLight light(const std::vector<LampShare> &shares) {
+        for (std::size_t k = 0; k < exposures_.size(); ++k)
+            exposures_[k].exposure_s *= shares[k].value;
+        const std::vector<PatchMean> patches = patches_now();
+        double lamp = 0;
+        for (std::size_t k = 0; k < exposures_.size(); ++k)
+            if (shares[k].sigma > 0) { // what one standard error of this exposure's light does
+                const double exposure_s = exposures_[k].exposure_s;
+                exposures_[k].exposure_s *= 1 + shares[k].sigma / shares[k].value;
+                lamp = std::hypot(lamp, middle_of(patches_now()).rate - middle_of(patches).rate);
+                exposures_[k].exposure_s = exposure_s;
+            }
+        return {.middle = middle_of(patches),
+                .all = mean_of(patches),
+                .texture = texture_error(patches, settings_.window.whole_repeats),
+                .lamp = lamp,
+                .uneven = unevenness(patches, grid_.across)};
+    }
+
+  private:
+    static const PatchMean &middle_of(const std::vector<PatchMean> &patches) {
+        return patches[patches.size() / 2];
+    }
+    std::vector<PatchMean> patches_now() const {
+        PixelRates pixels = merge_exposures(exposures_, darks_, settings_.sensor);
+        settings_.flat.apply(pixels, colour_, grid_.area);
+        return patches_of(pixels, grid_, settings_.window);
+    }
+
+    PatchGrid grid_;
+    std::size_t colour_;
+    const LightSettings &settings_;
+    std::vector<ExposedPixels> exposures_{};
+    std::vector<DarkPixels> darks_{};
+};
+
 } // namespace
 
 double texture_error(const std::vector<PatchMean> &patches, bool whole_repeats) {
@@ -78,25 +132,12 @@ double texture_error(const std::vector<PatchMean> &patches, bool whole_repeats) 
     return std::sqrt(variance - noise);
 }
 
-std::vector<PatchLight> light_of(const std::vector<FramePatches> &frames, const DarkFrames &dark,
-                                 const Sensor &sensor, const PatchGrid &grid,
-                                 const PatchWindow &window) {
+std::vector<PatchLight> light_of(const std::vector<FramePatches> &frames,
+                                 const std::vector<std::vector<LampShare>> &shares,
+                                 const LightSettings &settings) {
     std::vector<PatchLight> colours;
-    for (std::size_t c = 0; c < frames.front().colours.size(); ++c) {
-        std::vector<ExposedPixels> exposures;
-        std::vector<DarkPixels> darks;
-        for (const FramePatches &frame : frames) {
-            exposures.push_back(frame.colours[c].pixels);
-            const auto at = dark.find(exposures.back().exposure_s);
-            darks.push_back(at == dark.end() ? DarkPixels{} : at->second[c]);
-        }
-        const std::vector<PatchMean> patches =
-            patches_of(merge_exposures(exposures, darks, sensor), grid, window);
-        colours.push_back({.middle = patches[patches.size() / 2],
-                           .all = mean_of(patches),
-                           .texture = texture_error(patches, window.whole_repeats),
-                           .uneven = unevenness(patches, grid.across)});
-    }
+    for (std::size_t c = 0; c < frames.front().colours.size(); ++c)
+        colours.push_back(ColourLight(frames, c, settings).light(shares[c]));
     return colours;
 }
 

@@ -2,11 +2,10 @@
 /// \file
 /// The light of one view: its exposures merged, and the means of its patches.
 
-#include <map>
-#include <optional>
 #include <vector>
 
-#include "frame_patches.h"
+#include "flat_field.h"
+#include "lamp_monitor.h"
 #include "tsuya/lab/measure_session.h"
 #include "tsuya/lab/patch_window.h"
 
@@ -17,6 +16,7 @@ struct PatchLight {
     PatchMean middle{};
     PatchMean all{};    ///< mean of all patches, for what has no texture: rate and sigma
     double texture = 0; ///< standard error of `middle` from its place on the cloth, DN a second
+    double lamp = 0;    ///< the same from the monitor's noise
     double uneven = 1;  ///< larger over smaller light of two opposite sides, 1 for one patch
 };
 
@@ -29,17 +29,22 @@ struct ViewLight {
     std::vector<PatchLight> colours{};
 };
 
-/// Dark frames by exposure, each one colour after the other.
-using DarkFrames = std::map<double, std::vector<DarkPixels>>;
-
 /// The standard error of one mean among several of a texture: the root of their variance without
 /// that of noise. 0 for fewer than 4, and where noise explains the spread of whole repeats.
 double texture_error(const std::vector<PatchMean> &patches, bool whole_repeats);
 
-/// Merges the exposures of a view. `frames[k]` is of the planned exposure that `dark` knows; where
-/// it has none, `sensor.black` is taken. Window: weights of the patch.
-std::vector<PatchLight> light_of(const std::vector<FramePatches> &frames, const DarkFrames &dark,
-                                 const Sensor &sensor, const PatchGrid &grid,
-                                 const PatchWindow &window);
+/// What is known beside the frames of a view.
+struct LightSettings {
+    const DarkFrames &dark; ///< where it has no frame of an exposure, `sensor.black` is taken
+    const Sensor &sensor;
+    const FlatField &flat;
+    const PatchWindow &window; ///< weights of the patch
+};
+
+/// Merges the exposures of a view. `shares[colour][frame]`: an exposure counts as long as the lamp
+/// gave light in it.
+std::vector<PatchLight> light_of(const std::vector<FramePatches> &frames,
+                                 const std::vector<std::vector<LampShare>> &shares,
+                                 const LightSettings &settings);
 
 } // namespace tsuya::lab

@@ -80,10 +80,25 @@ VirtualCamera::VirtualCamera(VirtualScene scene, RigCamera camera, VirtualCamera
     : scene_(std::move(scene)), camera_(std::move(camera)), settings_(std::move(settings)),
       clock_(clock) {}
 
-double VirtualCamera::light_of_white(const PlannedFrame &frame, double time_s) const {
+double VirtualCamera::lamp_share(double time_s) const {
     const double age_s = time_s - first_time_s_.value_or(time_s);
-    return scene_.white_dn_per_s * std::cos(frame.directions.theta_i) *
-           (1 + scene_.drift * -std::expm1(-age_s / scene_.drift_s));
+    return 1 + scene_.drift * -std::expm1(-age_s / scene_.drift_s);
+}
+
+double VirtualCamera::light_of_white(const PlannedFrame &frame, double time_s) const {
+    return scene_.white_dn_per_s * lamp_share(time_s) * std::cos(frame.directions.theta_i);
+}
+
+bool VirtualCamera::is_monitor(int x, int y) const {
+    const PictureArea &area = camera_.monitor;
+    return settings_.monitor_dn_per_s > 0 && x >= area.x && y >= area.y &&
+           x < area.x + area.width && y < area.y + area.height;
+}
+
+double VirtualCamera::lens_at(int x, int y) const {
+    const glm::dvec2 half(settings_.width / 2.0, settings_.height / 2.0);
+    const glm::dvec2 off = glm::dvec2(x + 0.5, y + 0.5) - half;
+    return 1 - settings_.vignetting * glm::dot(off, off) / glm::dot(half, half);
 }
 
 double VirtualCamera::dn_per_s(const PlannedFrame &frame, double time_s) const {
@@ -101,28 +116,52 @@ double VirtualCamera::dn_per_s(const PlannedFrame &frame, double time_s) const {
     return 0;
 }
 
+Image VirtualCamera::sample_dn_per_s(const PlannedFrame &frame, double time_s) const {
+    const bool open = frame.kind == FrameKind::cloth || frame.kind == FrameKind::white;
+    if (scene_.picture && open) {
+        Image seen = scene_.picture(frame, settings_.width, settings_.height);
+        const double perfect_white =
+            scene_.white_dn_per_s * lamp_share(time_s) / scene_.white_reflectance;
+        for (float &value : seen.data)
+            value = static_cast<float>(perfect_white * double{value});
+        return seen;
+    }
+    Image seen = Image::make(settings_.width, settings_.height, {"Y"});
+    const double even = dn_per_s(frame, time_s);
+    Texture texture(scene_, camera_, frame, settings_.seed);
+    for (int y = 0; y < settings_.height; ++y)
+        for (int x = 0; x < settings_.width; ++x)
+            seen.pixel(x, y)[0] = static_cast<float>(even * texture.at(x, y));
+    return seen;
+}
+
 CameraFrame VirtualCamera::picture_of(const Shot &shot, double exposure_s) const {
     const double middle_s = shot.time_s + exposure_s / 2;
     Random random = random_of(settings_.seed, "noise", number_of(shot));
     std::normal_distribution<double> normal;
     const double flicker = 1 + scene_.flicker * normal(random);
-    const double light = dn_per_s(shot.planned, middle_s) * flicker;
+    const Image sample = sample_dn_per_s(shot.planned, middle_s);
     const double stray = shot.planned.kind == FrameKind::dark
                              ? 0
-                             : scene_.stray * light_of_white(shot.planned, middle_s) * flicker;
-    Texture texture(scene_, camera_, shot.planned, settings_.seed);
+                             : scene_.stray * light_of_white(shot.planned, middle_s);
     CameraFrame frame{.image = Image::make(settings_.width, settings_.height, {"Y"}),
                       .exposure_s = exposure_s,
                       .time = time_text(shot.time_s)};
+    const bool open = shot.planned.kind != FrameKind::dark;
+    const double monitor = open ? settings_.monitor_dn_per_s * lamp_share(middle_s) : 0;
     for (int y = 0; y < settings_.height; ++y)
         for (int x = 0; x < settings_.width; ++x) {
-            const double rate =
-                (light * texture.at(x, y) + stray) * camera_.e_per_dn + settings_.dark_e_per_s;
+            const double seen = is_monitor(x, y)
+                                    ? monitor
+                                    : (double{sample.pixel(x, y)[0]} + stray) * lens_at(x, y);
+            const double light = seen * flicker;
+            const double rate = light * camera_.e_per_dn + settings_.dark_e_per_s;
             std::poisson_distribution<long> photons(std::min(rate * exposure_s, 1e9));
             const double electrons =
                 static_cast<double>(photons(random)) + camera_.read_noise_e * normal(random);
             frame.image.pixel(x, y)[0] = static_cast<float>(std::clamp(
-                std::round(camera_.black + electrons / camera_.e_per_dn), 0.0, camera_.saturation));
+                std::round(camera_.black + settings_.black_shift + electrons / camera_.e_per_dn),
+                0.0, camera_.saturation));
         }
     return frame;
 }

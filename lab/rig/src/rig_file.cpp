@@ -12,7 +12,8 @@ namespace {
 constexpr const char *kSchema = "tsuya-rig 1";
 constexpr double kLongest = 86400; // seconds, of any time in the file
 constexpr double kMaxDn = 65535;
-constexpr Seconds kOperatorMove{20}; // for someone to turn an axis by hand
+constexpr double kMostPixels = 65535; // along a side of a picture
+constexpr Seconds kOperatorMove{20};  // for someone to turn an axis by hand
 
 const std::vector<std::string> kRoleNames{"lamp",      "shutter", "half_press", "busy",
                                           "interlock", "estop",   "heartbeat"};
@@ -166,6 +167,52 @@ void read_pictures(const Section &section, const std::filesystem::path &folder, 
         camera.response = existing_file(section, folder, "response", "a response curve as CSV");
 }
 
+/// Where in its pictures the camera sees the patch.
+void read_patch_places(const Section &section, std::vector<PatchPlace> &places) {
+    const auto list = [&](const char *key) {
+        return section.numbers(key).value_or(std::vector<double>{});
+    };
+    const std::vector<double> theta_deg = list("theta_deg"), x = list("x"), y = list("y");
+    bool good = !theta_deg.empty() && x.size() == theta_deg.size() && y.size() == x.size();
+    for (std::size_t i = 0; good && i < x.size(); ++i) {
+        places.push_back({.theta_r_deg = theta_deg[i], .x = x[i], .y = y[i]});
+        good = x[i] >= 0 && x[i] <= kMostPixels && y[i] >= 0 && y[i] <= kMostPixels &&
+               (i == 0 || theta_deg[i] > theta_deg[i - 1]);
+    }
+    if (!good)
+        section.problem("", "the places of the patch are no list",
+                        "expected theta_deg, ascending, and as many x and y, such as [0, 80], "
+                        "[1136, 1136], [852, 790]");
+}
+
+PictureArea read_monitor(const Section &section) {
+    const std::vector<double> corner_size =
+        section.numbers("monitor").value_or(std::vector<double>{});
+    PictureArea area;
+    int *const parts[]{&area.x, &area.y, &area.width, &area.height};
+    bool good = corner_size.size() == 4;
+    for (std::size_t i = 0; good && i < 4; ++i) {
+        const double number = corner_size[i];
+        good = number == std::floor(number) && number >= (i < 2 ? 0 : 1) && number <= kMostPixels;
+        *parts[i] = good ? static_cast<int>(number) : 0;
+    }
+    if (!good)
+        section.problem("monitor", "is no part of a picture",
+                        "expected column, row, width and height in pixels, such as [40, 40, 64, "
+                        "64]");
+    return area;
+}
+
+/// What lies where in the pictures.
+void read_places(const Section &section, const std::filesystem::path &folder, RigCamera &camera) {
+    if (const auto places = section.section("patch_at"))
+        read_patch_places(*places, camera.patch_at);
+    if (section.has("flat"))
+        camera.flat = existing_file(section, folder, "flat", "a picture of an even surface");
+    if (section.has("monitor"))
+        camera.monitor = read_monitor(section);
+}
+
 void read_camera(const Section &root, const std::filesystem::path &folder, RigFile &rig) {
     const auto section = required_section(root, "camera");
     if (!section)
@@ -185,6 +232,7 @@ void read_camera(const Section &root, const std::filesystem::path &folder, RigFi
     camera.aperture_mm = section->number("aperture_mm", 0, 1e3).value_or(camera.aperture_mm);
     camera.distance_mm = section->number("distance_mm", 0, 1e5).value_or(camera.distance_mm);
     read_pictures(*section, folder, camera);
+    read_places(*section, folder, camera);
 }
 
 void read_limits(const Section &section, RigAxis &axis) {

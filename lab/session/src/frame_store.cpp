@@ -74,7 +74,8 @@ FrameStore::Checked FrameStore::check(const Shot &shot, const std::atomic<bool> 
                    .frame = shot.number,
                    .texts = {{"file", name_of(shot.file)}},
                    .numbers = {{"bytes", static_cast<double>(size_of(shot.file))}}});
-    Checked checked{.facts = read_(shot.file, camera_), .hash = file_hash(shot.file)};
+    Checked checked{.facts = read_(shot.file, camera_, shot.planned.directions.theta_r),
+                    .hash = file_hash(shot.file)};
     if (hashes_.contains(checked.hash))
         throw Error({"the picture is a copy of an earlier one", shot.file.string(),
                      "expected a new one from the camera"});

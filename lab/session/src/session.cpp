@@ -86,8 +86,9 @@ std::vector<std::filesystem::path> files_named_by(const RigFile &rig) {
     std::vector<std::filesystem::path> files;
     if (const auto *standard = std::get_if<std::filesystem::path>(&rig.white.rho_std))
         files.push_back(*standard);
-    if (!rig.camera.response.empty())
-        files.push_back(rig.camera.response);
+    for (const std::filesystem::path &file : {rig.camera.response, rig.camera.flat})
+        if (!file.empty())
+            files.push_back(file);
     return files;
 }
 
@@ -100,6 +101,15 @@ std::string files_hash(const std::vector<std::filesystem::path> &files) {
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hasher.result()));
     return text;
+}
+
+RigCamera dry_run_camera(RigCamera camera) {
+    camera.extension = "tif";
+    camera.response.clear();
+    camera.patch_at.clear();
+    camera.flat.clear();
+    camera.monitor = {};
+    return camera;
 }
 
 Session read_session(const std::filesystem::path &folder) {
@@ -116,6 +126,8 @@ Session read_session(const std::filesystem::path &folder) {
     for (const JournalEvent &event : read_journal(journal).events)
         reader.take(event, journal.string() + ":" + std::to_string(event.seq + 1));
     reader.finish();
+    if (session.dry_run)
+        session.rig.camera = dry_run_camera(session.rig.camera);
     return session;
 }
 

@@ -172,7 +172,7 @@ double epoch_of(const std::filesystem::path &journal) {
 
 SessionResult run_dry(const SessionJob &job, const Progress &progress) {
     RigFile rig = read_rig_file(job.folder / "rig.toml");
-    rig.camera.extension = "tif"; // what a camera that exists only as numbers writes
+    rig.camera = dry_run_camera(rig.camera);
     const double epoch_s = epoch_of(job.folder / "journal.jsonl");
     VirtualClock time;
     SimulatedInput interlock("interlock", time, true), estop("estop", time, false);

@@ -19,9 +19,12 @@ namespace tsuya::lab {
 
 /// Which corrections are made. To leave one out shows what it does.
 struct Corrections {
-    bool dark = true;  ///< black and dark current
-    bool trap = true;  ///< stray light, from frames of the black trap
-    bool drift = true; ///< of the lamp, between white frames; else the first white frame is taken
+    bool black = true;   ///< the sensor's numbers without light
+    bool dark = true;    ///< dark current and what black is now, from dark frames
+    bool flat = true;    ///< vignetting, from the rig's flat field
+    bool monitor = true; ///< the lamp's light in single frames, from the rig's monitor
+    bool trap = true;    ///< stray light, from frames of the black trap
+    bool drift = true;   ///< of the lamp, between white frames; else the first one is taken
 };
 
 /// How the pictures of a session are measured.
@@ -36,7 +39,7 @@ struct MeasureSettings {
 /// Why a view is not in the table.
 enum class LeftOutReason {
     saturated,      ///< a pixel of the patch is clipped under every exposure
-    underexposed,   ///< less light than three times its noise
+    underexposed,   ///< no more light than its noise, stray light taken off
     missing,        ///< a frame was not taken, or cannot be read
     unsharp,        ///< far less contrast from pixel to pixel than other views of the same tilt
     misplaced,      ///< the patch is not lit all over, or not all cloth

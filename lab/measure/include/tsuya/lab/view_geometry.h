@@ -23,6 +23,11 @@ double spot_length_mm(double spot_mm, const DirectionPair &directions);
 /// middle. Across the beam it is Gaussian with the full width `spot_mm` at half its height; and the
 /// lamp, `lamp_mm` from the cloth, is nearer by height cos(theta_i). A width or distance of 0 is
 /// unknown, and its part left out.
+///
+/// Seen from 75 degrees under light from above, 1 mm shifts by tan(75) = 3.73 mm, which costs
+/// 1 - 2^-(2 x 3.73 / 30)^2 = 4.2 % in a spot of 30 mm. How the width is meant matters: were 30 mm
+/// the width at 1/e of the light, it would be 6.0 %, at 1/e^2 11.6 %, and where a cosine falls to 0
+/// 7.5 %.
 double raised_irradiance(double height_mm, double spot_mm, double lamp_mm,
                          const DirectionPair &directions);
 

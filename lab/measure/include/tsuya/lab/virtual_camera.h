@@ -32,6 +32,10 @@ struct VirtualScene {
     /// to pixel and from view to view.
     std::array<double, 2> repeat_mm{0.4, 0.4};
     std::optional<std::size_t> glint_view{}; ///< a view of the plan that is far too bright
+    /// What each pixel of a frame of the cloth or of the white standard sees, as a rendered picture
+    /// of one channel: 1 is a perfect white lit from straight above. `cloth`, the texture and the
+    /// cosine of the light are not used then. Empty: an even patch of the above.
+    std::function<Image(const PlannedFrame &frame, int width, int height)> picture{};
 };
 
 /// What the virtual camera does wrong.
@@ -49,6 +53,9 @@ enum class CameraFault {
 struct VirtualCameraSettings {
     int width = 64, height = 64; ///< pixels
     double dark_e_per_s = 2;     ///< dark current, electrons a second
+    double black_shift = 0;      ///< DN without light over the rig's `black`, as of a warm sensor
+    double vignetting = 0;       ///< share of the light that the picture's corner lacks: r^2 of it
+    double monitor_dn_per_s = 0; ///< of the rig's monitor; 0: the cloth is seen there
     std::uint32_t seed = 1;      ///< of all noise
     /// The fault of the n-th exposure, from 0. May be empty.
     std::function<std::optional<CameraFault>(std::uint64_t n)> fault{};
@@ -67,11 +74,18 @@ class VirtualCamera final : public FrameCamera {
     /// Writes a TIFF: `shot.file` ends in .tif.
     void collect(const Shot &shot) override;
 
-    /// Light of the middle of a picture in DN a second, without stray light, texture and noise.
+    /// Light of an even patch in DN a second, without stray light, texture and noise.
     double dn_per_s(const PlannedFrame &frame, double time_s) const;
 
   private:
     CameraFrame picture_of(const Shot &shot, double exposure_s) const;
+    /// Of the cloth or the white standard at each pixel.
+    Image sample_dn_per_s(const PlannedFrame &frame, double time_s) const;
+    /// Of the lamp's first light.
+    double lamp_share(double time_s) const;
+    bool is_monitor(int x, int y) const;
+    /// The share of the light that the lens leaves for a pixel.
+    double lens_at(int x, int y) const;
     double light_of_white(const PlannedFrame &frame, double time_s) const;
 
     VirtualScene scene_;

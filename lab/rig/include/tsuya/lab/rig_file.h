@@ -54,6 +54,18 @@ struct RigShutter {
     Seconds lag{0};
 };
 
+/// Where the measured patch lies in pictures that are taken from an angle.
+struct PatchPlace {
+    double theta_r_deg = 0; ///< of the camera's axis
+    double x = 0, y = 0;    ///< of the patch's middle, pixels from the top left corner
+};
+
+/// A rectangle of a picture; row 0 is the top row.
+struct PictureArea {
+    int x = 0, y = 0;
+    int width = 0, height = 0; ///< 0: none
+};
+
 /// `[camera]`
 struct RigCamera {
     /// Program and arguments, run without a shell, with the placeholders `{file}` and `{exposure}`.
@@ -75,6 +87,15 @@ struct RigCamera {
     double frame_mb = 8;           ///< size of a picture, for the plan's estimate
     /// The measured response of a camera whose pictures are encoded; empty: they are linear.
     std::filesystem::path response{};
+    /// Where the stage's axis is seen, by ascending angles: linear between them, and as at the
+    /// nearest beyond. Empty: always in the middle of the picture.
+    std::vector<PatchPlace> patch_at{};
+    /// A picture of an even surface in even light, through the lens as it is used: what the lens
+    /// leaves for each pixel. Empty: alike for all.
+    std::filesystem::path flat{};
+    /// A part of every picture in which the lamp's light is seen the same whatever the view, such
+    /// as the end of a fibre from the lamp.
+    PictureArea monitor{};
 };
 
 /// The axes of a rig. With light from (theta_i, phi_i) and the camera at (theta_r, phi_r) the stage

@@ -38,11 +38,12 @@ class FrameCamera {
 /// What a picture says about itself.
 struct FrameFacts {
     std::optional<double> exposure_s{}; ///< seconds; nothing where the file does not say
-    double patch_mean = 0;              ///< mean DN of the patch in the middle, black removed
+    double patch_mean = 0;              ///< mean DN of the patch, black removed
 };
 
-/// Decodes a picture. Throws Error naming it if it is no whole picture.
-using FrameReader =
-    std::function<FrameFacts(const std::filesystem::path &file, const RigCamera &camera)>;
+/// Decodes a picture that was taken from an angle theta_r. Throws Error naming it if it is no whole
+/// picture.
+using FrameReader = std::function<FrameFacts(const std::filesystem::path &file,
+                                             const RigCamera &camera, double theta_r)>;
 
 } // namespace tsuya::lab

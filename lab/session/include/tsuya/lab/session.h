@@ -35,7 +35,7 @@ struct RejectedFrame {
 /// What a session has so far.
 struct Session {
     std::filesystem::path folder{};
-    RigFile rig{}; ///< as it was at the first run
+    RigFile rig{}; ///< as it was at the first run; of a dry run with its camera
     Plan plan{};
     std::vector<CountedFrame> frames{};    ///< by number; each number once at most
     std::vector<CountedFrame> warm_up{};   ///< white frames beside the plan, by time
@@ -45,6 +45,10 @@ struct Session {
     std::string named_hash{};                            ///< of the files that the rig file names
     bool dry_run = false; ///< the pictures are those of a simulated camera
 };
+
+/// A rig's camera as a dry run has it: its pictures are small, linear TIFF files with the patch in
+/// the middle, without vignetting and monitor.
+RigCamera dry_run_camera(RigCamera camera);
 
 /// Reads a session, also one that is not finished; changes nothing. Throws what read_plan,
 /// read_rig_file and read_journal throw, and Error with file:line of the journal for a frame that
@@ -58,7 +62,7 @@ std::string file_hash(const std::filesystem::path &file);
 std::string files_hash(const std::vector<std::filesystem::path> &files);
 
 /// The files that a rig file names and a session keeps copies of: the table or spectrum of its
-/// white standard and its camera's response, where it has them.
+/// white standard, its camera's response and flat field, where it has them.
 std::vector<std::filesystem::path> files_named_by(const RigFile &rig);
 
 } // namespace tsuya::lab
