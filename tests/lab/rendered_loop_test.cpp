@@ -95,7 +95,7 @@ TEST_F(RenderedLoop, AUsualLampBlursLittleAndAWideOneMuch) {
     const double usual = l2_cos(measured(views, 1.1 * kDegree));
     const double wide = l2_cos(measured(views, 9.5 * kDegree));
     std::printf("lamp of 1.1 degrees: %.4f, of 9.5: %.4f\n", usual, wide);
-    EXPECT_LE(usual, 0.006);
+    EXPECT_LE(usual, 0.005);
     EXPECT_GT(wide, 0.05) << "the negative control";
 }
 
