@@ -56,5 +56,6 @@ if [ ! -s "$kernel/release" ]; then
     exit 0
 fi
 programs=/build/tests/lab
-"$(dirname "$(realpath "${BASH_SOURCE[0]}")")/gpio_test.sh" "$kernel" "$root" $programs/gpio_pulses \
-    $programs/gpio_watch
+bed=$(dirname "$(realpath "${BASH_SOURCE[0]}")")/gpio_test.sh
+"$bed" lines "$kernel" "$root" $programs/gpio_pulses $programs/gpio_watch
+"$bed" sessions "$kernel" "$root" $programs/gpio_session
