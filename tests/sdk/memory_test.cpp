@@ -54,6 +54,9 @@ TEST_F(Memory, OfAControlGroupOfTheFirstVersion) {
 
 // In a process of its own, whose address space is limited.
 TEST(NeedMemory, NamesTheBytesAndWhatFits) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the address sanitizer takes address space of its own";
+#endif
     const auto limited = [] {
         const rlimit limit{1u << 20, 1u << 20}; // less than is in use
         setrlimit(RLIMIT_AS, &limit);

@@ -94,6 +94,8 @@ TSUYA_FOR_EVERY_PROCESSOR
 bool evaluate(const DiskTable &table, float f0, float low, const glm::vec3 *to_light,
               const glm::vec3 *to_viewer, float *out, std::size_t count) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    if (count == 0)
+        return false; // the pointers may be null
     const float *light = &to_light->x, *view = &to_viewer->x;
     bool any_low = false;
     for (; count >= kWide; count -= kWide, light += 3 * kWide, view += 3 * kWide, out += kWide)
