@@ -100,8 +100,27 @@ TEST(OutputFile, RefusesBeforeItCreatesAnything) {
     EXPECT_NE(refused("new/a").what.find("extension"), std::string::npos);
     EXPECT_FALSE(fs::exists(scratch / "new"));
     EXPECT_EQ(refused("file/a.exr").where, (scratch / "file").string());
-    EXPECT_EQ(problem_of([&] { prepare_output_folder(scratch / "file"); }).where,
+    EXPECT_EQ(problem_of([&] { const OutputFolder folder(scratch / "file"); }).where,
               (scratch / "file").string());
+}
+
+TEST(OutputFolder, IsRemovedAgainWhereItGotNothing) {
+    const Scratch scratch;
+    const fs::path mine = scratch / "mine", deep = mine / "a/b/";
+    fs::create_directories(mine);
+    { const OutputFolder folder(deep); }
+    EXPECT_TRUE(fs::is_empty(mine));
+    {
+        const OutputFolder folder(deep);
+        EXPECT_TRUE(fs::is_directory(deep));
+        scratch.write("mine/a/b/result", "x");
+    }
+    EXPECT_TRUE(fs::exists(deep / "result"));
+    { const OutputFolder folder(scratch / "mine/c"); }
+    EXPECT_FALSE(fs::exists(mine / "c"));
+    fs::create_directories(mine / "c");
+    { const OutputFolder folder(mine / "c"); }
+    EXPECT_TRUE(fs::is_directory(mine / "c")) << "it was there before";
 }
 
 } // namespace
