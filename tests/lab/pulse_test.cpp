@@ -301,7 +301,7 @@ TEST(PulseTrain, NamesEverythingThatIsOutOfRange) {
         EXPECT_EQ(error.problems()[1].where, "train.period");
         EXPECT_EQ(error.problems()[2].where, "train.count");
         EXPECT_EQ(error.problems()[3].where, "train.warm_up");
-        EXPECT_EQ(error.problems()[2].accepted, "1 to 1000000");
+        EXPECT_EQ(error.problems()[2].accepted, "expected 1 to 1000000");
     }
 }
 
