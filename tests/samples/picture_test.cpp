@@ -34,7 +34,7 @@ TEST(Lamps, AreNamedAfterTheirFiles) {
     EXPECT_NE(caption_of(lamps[0]).find("6504 K"), std::string::npos);
     EXPECT_NE(problem_of([] {
                   parse_lamps(Texts{"A", "A"});
-              }).what.find("twice"),
+              }).what.find("two lamps"),
               std::string::npos);
     EXPECT_EQ(problem_of([] { parse_lamps(Texts{}); }).where, "lamps");
 }
