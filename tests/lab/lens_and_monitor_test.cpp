@@ -42,13 +42,18 @@ MeasureSettings settings_of(const VirtualSession &made, const Corrections &corre
     return {.repeat_mm = made.scene.repeat_mm, .corrections = corrections};
 }
 
+/// A session in the folder whose rig has a flat field.
+Session flat_session(const std::filesystem::path &folder, VirtualSession &made) {
+    std::filesystem::create_directories(folder);
+    write_flat(folder / "flat.tif");
+    made.camera_lines.insert(0, "flat = \"flat.tif\"\n");
+    return make_virtual_session(folder, made);
+}
+
 TEST(FlatField, TakesTheLensOutOfAPatchThatMoves) {
     const Scratch folder;
     VirtualSession made = moving_session();
-    std::filesystem::create_directories(folder / "s");
-    write_flat(folder / "s/flat.tif");
-    made.camera_lines.insert(0, "flat = \"flat.tif\"\n");
-    const Session session = make_virtual_session(folder / "s", made);
+    const Session session = flat_session(folder / "s", made);
     const SessionMeasurement measured = measure_session(session, settings_of(made));
     EXPECT_EQ(measured.channels[0].views.size(), 30u);
     EXPECT_LT(worst_of(measured.channels[0], made), 0.01);
@@ -69,10 +74,7 @@ TEST(FlatField, IsMissedWhereThePatchMoves) {
 TEST(FlatField, OfAnotherSizeOrClippedIsRefused) {
     const Scratch folder;
     VirtualSession made = moving_session();
-    std::filesystem::create_directories(folder / "s");
-    write_flat(folder / "s/flat.tif");
-    made.camera_lines.insert(0, "flat = \"flat.tif\"\n");
-    const Session session = make_virtual_session(folder / "s", made);
+    const Session session = flat_session(folder / "s", made);
     const auto problem = [&] {
         try {
             measure_session(session, settings_of(made));

@@ -1,5 +1,4 @@
 #include "tsuya/sdk/scene.h"
-#include "tsuya/sdk/light_group.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/light_group.h"
 
 namespace tsuya {
 namespace {

@@ -25,7 +25,7 @@ class KeptMaterials {
     Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress = {});
     /// Of cloths: fabrics that differ in their colours alone are one.
     std::size_t size() const { return kept_.size(); }
-    /// Forgets all: their tables have about half a megabyte each.
+    /// Forgets all: their tables have about a megabyte each.
     void clear() { kept_.clear(); }
 
   private:
