@@ -65,6 +65,82 @@ TEST(FabricFit, WritesTheLustreThatIsAsked) {
     EXPECT_NE(wrong.err.find("semi-dull"), std::string::npos) << wrong.err;
 }
 
+// sqrt(sum w (f c - m c)^2 / sum w (m c)^2) of the views in a report, w by the sine of theta.
+double residual_of(const json &report) {
+    double difference = 0, square = 0;
+    for (const json &view : report.at("views")) {
+        const double theta = view.at("theta_deg").get<double>() * kDegree;
+        const double measured = view.at("brdf_per_sr"), fitted = view.at("fitted_per_sr");
+        const double weight = std::sin(theta) * std::cos(theta) * std::cos(theta);
+        difference += weight * (fitted - measured) * (fitted - measured);
+        square += weight * measured * measured;
+    }
+    return std::sqrt(difference / square);
+}
+
+TEST(FabricFit, ReportsTheResidualOfTheModelThatItWrites) {
+    const Scratch scratch;
+    const std::string table = (scene::data_folder() / "fabrics/black_satin.csv").string(),
+                      file = (scratch / "f.fabric.toml").string();
+    const auto fit = [&](std::vector<std::string> more) {
+        std::vector<std::string> call{"fit", table, "-o", file, "--json"};
+        call.insert(call.end(), more.begin(), more.end());
+        return run_fabric(scratch, call);
+    };
+    const Outcome free = fit({});
+    const json report = json::parse(free.out);
+    EXPECT_EQ(report.at("model").at("name"), "yarn");
+    const json &left_out = report.at("model").at("l2_cos_left_out");
+    EXPECT_LT(left_out.at("yarn").get<double>(), left_out.at("ggx").get<double>());
+    EXPECT_NEAR(report.at("residual").get<double>(), residual_of(report), 0.01);
+    EXPECT_LT(report.at("residual"), 0.15);
+    EXPECT_EQ(free.err, "");
+    // An ideal diffuser is far from satin
+    const Outcome lambert = fit({"--model", "lambert"});
+    EXPECT_EQ(lambert.status, 0);
+    const json worse = json::parse(lambert.out);
+    EXPECT_NEAR(worse.at("residual").get<double>(), residual_of(worse), 0.02);
+    EXPECT_GT(worse.at("residual"), 0.5);
+    EXPECT_FALSE(worse.at("model").contains("l2_cos_left_out"));
+    EXPECT_NE(lambert.err.find("the model lambert misses the views by l2_cos 0."),
+              std::string::npos)
+        << lambert.err;
+    EXPECT_EQ(std::get<CarriedViews>(read_fabric(file).specular).model, ViewModel::lambert);
+}
+
+TEST(FabricFit, TakesFacetsForViewsThatFacetsMade) {
+    const Scratch scratch;
+    const GgxBrdf facets({.alpha_weft = 0.3, .alpha_warp = 0.3});
+    ReflectanceTable table{.symmetry = Symmetry::orthotropic};
+    for (int theta = 0; theta < 86; theta += 5)
+        for (int phi = 0; phi < 91 && (theta > 0 || phi == 0); phi += 15) {
+            ReflectanceRow row{0, 0, theta * kDegree, phi * kDegree};
+            row.brdf_per_sr =
+                static_cast<double>(facets.evaluate({0, 0, 1}, glm::vec3(row.to_viewer())));
+            table.rows.push_back(row);
+        }
+    const std::string file = (scratch / "f.fabric.toml").string(),
+                      csv = (scratch / "t.csv").string();
+    write_reflectance_table(table, csv);
+    const Outcome fitted = run_fabric(scratch, {"fit", csv, "-o", file});
+    ASSERT_EQ(fitted.status, 0) << fitted.err;
+    EXPECT_NE(fitted.out.find("model ggx: l2_cos 0.0"), std::string::npos) << fitted.out;
+    EXPECT_EQ(std::get<CarriedViews>(read_fabric(file).specular).model, ViewModel::ggx);
+}
+
+TEST(FabricFit, RefusesModelsThatDoNotCarryViews) {
+    const Scratch scratch;
+    const std::string file = (scratch / "f.fabric.toml").string(), table = dozen_table(scratch);
+    const Outcome none = run_fabric(scratch, {"fit", table, "-o", file, "--model", "tabulated"});
+    EXPECT_EQ(none.status, 2);
+    EXPECT_NE(none.err.find("half_vector"), std::string::npos) << none.err;
+    const Outcome both =
+        run_fabric(scratch, {"fit", table, "-o", file, "--model", "ggx", "--use", "all"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_NE(both.err.find("--use all"), std::string::npos) << both.err;
+    EXPECT_FALSE(fs::exists(file));
+}
+
 TEST(FabricFit, UsesObliqueViewsIfAsked) {
     const Scratch scratch;
     const std::string table = dozen_table(scratch), normal = (scratch / "n.fabric.toml").string(),

@@ -312,8 +312,8 @@ TEST(Program, FitsFabrics) {
         run(scratch, {"fabric", "fit", table, "-o", toml, "--f0", "0.0491", "--json"});
     ASSERT_EQ(fitted.status, 0) << fitted.err;
     const json report = json::parse(fitted.out);
-    EXPECT_EQ(report.at("schema"), "tsuya-fabric-fit 1");
-    EXPECT_LT(report.at("residual"), 0.06); // its darkest views are 1e-4 of the brightest
+    EXPECT_EQ(report.at("schema"), "tsuya-fabric-fit 2");
+    EXPECT_LT(report.at("bard").at("rms_log10_ratio"), 0.06); // darkest views 1e-4 of the brightest
     EXPECT_GT(report.at("views").size(), 6u);
     // make_fabrics beside it remakes it where the table or the fit has changed
     EXPECT_EQ(read_file(toml), read_file(data / "fabrics/black_satin.fabric.toml"));

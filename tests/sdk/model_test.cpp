@@ -67,6 +67,20 @@ TEST(Models, StopOnRequest) {
                  Interrupted);
 }
 
+TEST(Models, HaveOneReflectanceOfFacets) {
+    CarriedViews views{.bard = bard_of(satin_cloth())};
+    for (const ViewModel model : view_models()) {
+        views.model = model;
+        views.f0.reset();
+        EXPECT_EQ(f0_of(views), model == ViewModel::takeda_printed
+                                    ? std::min(1.0, views.bard.at({0, 0, 1})) // as [Takeda] has it
+                                    : 0.05)
+            << name_of(model);
+        views.f0 = 0.3;
+        EXPECT_EQ(f0_of(views), 0.3);
+    }
+}
+
 // What is not chosen is kept, and can be chosen again.
 TEST(Models, AreChosenFromWhatTheFabricHas) {
     Fabric fabric = satin();

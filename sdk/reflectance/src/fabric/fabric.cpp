@@ -155,7 +155,10 @@ bool has_body(const Fabric &fabric) {
 }
 
 double f0_of(const CarriedViews &views) {
-    return views.f0 ? *views.f0 : std::min(1.0, views.bard.at({0, 0, 1}));
+    if (views.f0)
+        return *views.f0;
+    return views.model == ViewModel::takeda_printed ? std::min(1.0, views.bard.at({0, 0, 1}))
+                                                    : kFibreF0;
 }
 
 void check_fabric(const Fabric &fabric, const std::string &where) {

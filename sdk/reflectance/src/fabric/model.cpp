@@ -24,24 +24,6 @@ constexpr std::array<ModelName, 7> kModels = {{
     {"tabulated", "every light and view from a table; no prediction"},
 }};
 
-std::string_view name_of(ViewModel model) {
-    switch (model) {
-    case ViewModel::yarn:
-        return "yarn";
-    case ViewModel::takeda:
-        return "takeda";
-    case ViewModel::takeda_printed:
-        return "takeda_printed";
-    case ViewModel::half_vector:
-        return "half_vector";
-    case ViewModel::ggx:
-        return "ggx";
-    case ViewModel::lambert:
-        break;
-    }
-    return "lambert";
-}
-
 constexpr std::array kViewModels = {
     ViewModel::yarn,        ViewModel::takeda, ViewModel::takeda_printed,
     ViewModel::half_vector, ViewModel::ggx,    ViewModel::lambert};
@@ -132,7 +114,7 @@ struct Maker {
             return std::nullopt;
         switch (views.model) {
         case ViewModel::yarn:
-            return YarnBrdf(bard, good_f0(views.f0.value_or(YarnLobes{}.f0)), progress);
+            return YarnBrdf(bard, good_f0(f0_of(views)), progress);
         case ViewModel::takeda:
             return TakedaBrdf(bard, good_f0(f0_of(views)), progress);
         case ViewModel::takeda_printed:
@@ -151,6 +133,26 @@ struct Maker {
 } // namespace
 
 std::span<const ModelName> model_names() { return kModels; }
+
+std::span<const ViewModel> view_models() { return kViewModels; }
+
+std::string_view name_of(ViewModel model) {
+    switch (model) {
+    case ViewModel::yarn:
+        return "yarn";
+    case ViewModel::takeda:
+        return "takeda";
+    case ViewModel::takeda_printed:
+        return "takeda_printed";
+    case ViewModel::half_vector:
+        return "half_vector";
+    case ViewModel::ggx:
+        return "ggx";
+    case ViewModel::lambert:
+        break;
+    }
+    return "lambert";
+}
 
 void check_model_name(const std::string &name, const std::string &where) {
     std::vector<std::string> known;

@@ -135,7 +135,9 @@ WeighedLight TakedaCore::weigh_view(const glm::vec3 &to_light, const glm::vec3 &
 glm::vec3 TakedaCore::draw(const glm::vec3 &to_viewer, const glm::vec3 &u) const {
     if (!(u.z < kHalfShare))
         return direction_of_disk(disk_of_square({u.x, u.y}));
-    const glm::vec2 p = 2.0f * halves_.sample({u.x, u.y}).point - 1.0f;
+    const bool near_level = u.z < kHalfShare * kernel::near_level_share(to_viewer.z);
+    const glm::vec2 p = near_level ? std::sqrt(kernel::kNearLevel2) * disk_of_square({u.x, u.y})
+                                   : 2.0f * halves_.sample({u.x, u.y}).point - 1.0f;
     const float z2 = 1 - glm::dot(p, p);
     if (!(z2 > 0))
         return glm::vec3(0);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "tsuya/sdk/angle.h"
+
 // The sanitizers start after the choice would be made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
     !defined(__SANITIZE_ADDRESS__)
@@ -85,7 +87,12 @@ Weighed weigh(const DiskTable &table, const Distribution2D &halves, float f0,
     // dH/dL = 1 / (4 V.H); the disk of the horizontal part of H has the area element N.H dH, the
     // square about it four times the area of the disk's own
     const float over_facing = 1 / p.facing, quarter = 0.25f * over_facing;
-    const float at_half = halves.density({quarter * p.half_x + 0.5f, quarter * p.half_y + 0.5f});
+    const float level2 =
+        (p.half_x * p.half_x + p.half_y * p.half_y) * (0.25f * over_facing * over_facing);
+    const float level_share = near_level_share(to_viewer.z);
+    const float at_half =
+        (1 - level_share) * halves.density({quarter * p.half_x + 0.5f, quarter * p.half_y + 0.5f}) +
+        (level2 < kNearLevel2 ? level_share * (4 / (kPiF * kNearLevel2)) : 0.0f);
     return {times_cosine(table.at_disk(p.x, p.y), f0, p, to_light.z, to_viewer.z),
             at_half * (0.03125f * over_facing * over_facing) * p.half_z};
 }

@@ -101,8 +101,18 @@ inline float times_cosine(float at_basic, float f0, const Pair &p, float first, 
 float f_cos(const DiskTable &table, float f0, const glm::vec3 &to_light,
             const glm::vec3 &to_viewer);
 
+// A view near grazing sees the peak of rho0 by facets of all tilts up to 30 degrees: V0 is N where
+// V is as far from R as the light from the horizon, and the tangent of that tilt is sqrt(2 r - 1) /
+// (r + 1), r the light's elevation over the view's. Beyond, V0 leaves N slowly. So facets nearer to
+// level than 50 degrees are sampled alike in that share of the samples.
+constexpr float kNearLevel2 = 0.587f; // sin^2
+inline float near_level_share(float view_cosine) {
+    const float m = 1 - view_cosine, m2 = m * m, m4 = m2 * m2;
+    return 0.4f * m4 * m4;
+}
+
 // The same with the density of the light where H is sampled from `halves`, which is over the square
-// about the disk of its horizontal part.
+// about the disk of its horizontal part, and by near_level_share.
 struct Weighed {
     float f_cos, density_per_sr;
 };

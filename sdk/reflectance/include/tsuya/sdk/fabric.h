@@ -45,8 +45,8 @@ enum class ViewModel {
 struct CarriedViews {
     Bard bard;
     ViewModel model = ViewModel::yarn;
-    /// Reflectance of the facets at normal incidence, in (0, 1]. None: of `yarn` a fibre's, 0.05;
-    /// of the others rho0(0,0), as [Takeda] has it. `ggx` and `lambert` do not look at it.
+    /// Reflectance of the facets at normal incidence, in (0, 1]. None: a fibre's, kFibreF0; of
+    /// `takeda_printed` rho0(0,0), as [Takeda] has it. `ggx` and `lambert` do not look at it.
     std::optional<double> f0{};
 
     bool operator==(const CarriedViews &) const = default;

@@ -25,6 +25,12 @@ std::span<const ModelName> model_names();
 /// Throws Error naming `where` and the known models.
 void check_model_name(const std::string &name, const std::string &where);
 
+/// The models that views are carried by, in the order of model_names.
+std::span<const ViewModel> view_models();
+
+/// The model's name.
+std::string_view name_of(ViewModel model);
+
 /// The name of the model that the fabric's specular part is; kDefaultModel where it has none.
 std::string_view model_of(const Fabric &fabric);
 

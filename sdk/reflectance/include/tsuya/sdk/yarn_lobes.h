@@ -19,11 +19,12 @@ inline constexpr int kYarnSlopes = 49;
 /// Slope of the k-th, radians.
 double yarn_slope(int k);
 
+/// Reflectance of a fibre at normal incidence: that of an index of 1.58, fibres have 1.53 to 1.6.
+inline constexpr double kFibreF0 = 0.05;
+
 /// The filaments of a cloth.
 struct YarnLobes {
-    /// Reflectance of the fibre at normal incidence, (0, 1]: that of an index of 1.58, fibres have
-    /// 1.53 to 1.6
-    double f0 = 0.05;
+    double f0 = kFibreF0;    ///< reflectance of the fibre at normal incidence, (0, 1]
     double roughness = 0.05; ///< standard deviation of a filament's surface slope, radians
     /// Surface of filaments over that of the cloth at each slope, of yarns along the weft (0) and
     /// the warp (1). pi/2 is a full cover of level filaments.
