@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -29,8 +30,8 @@ void check_image(const Image &image, const std::string &where) {
                                               image.channels.size())
         throw Error({"the picture of " + std::to_string(image.width) + " x " +
                          std::to_string(image.height) + " pixels and " +
-                         std::to_string(image.channels.size()) + " channels holds " +
-                         std::to_string(image.data.size()) + " values",
+                         detail::counted(image.channels.size(), "channel") + " holds " +
+                         detail::counted(image.data.size(), "value"),
                      where, "expected width x height x channels values, at least one"});
 }
 

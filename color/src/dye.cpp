@@ -125,6 +125,11 @@ std::string dye_description(std::string_view name) {
     return find_dye(name, "dye", false).description;
 }
 
+void check_dye_spec(const std::string &spec, const std::string &where) {
+    if (std::filesystem::path(spec).extension() != ".csv" || spec.starts_with('#'))
+        parse_dye(spec, {}, where);
+}
+
 Spectrum parse_dye(const std::string &spec, const std::filesystem::path &folder,
                    const std::string &where) {
     if (spec.starts_with('#'))

@@ -7,6 +7,7 @@
 
 #include "channels.h"
 #include "oiio_file.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -25,7 +26,7 @@ void check_display_image(const Image &image, const std::string &where) {
     check_image(image, where);
     const std::size_t channels = image.channels.size();
     if (channels != 1 && channels != 3 && channels != 4)
-        throw Error({"the picture has " + std::to_string(channels) + " channels", where,
+        throw Error({"the picture has " + detail::counted(channels, "channel"), where,
                      "expected 1 (grey), 3 (RGB) or 4 (RGBA) for a PNG"});
     const auto nan =
         std::find_if(image.data.begin(), image.data.end(), [](float v) { return std::isnan(v); });

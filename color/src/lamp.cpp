@@ -74,12 +74,15 @@ std::string lamp_description(std::string_view name) {
     return table->description;
 }
 
+void check_lamp_spec(const std::string &spec) {
+    if (std::filesystem::path(spec).extension() != ".csv")
+        lamp_description(spec);
+}
+
 Spectrum parse_lamp(const std::string &spec, const std::filesystem::path &folder) {
-    if (!std::filesystem::path(spec).has_extension())
-        return lamp(spec);
     const std::filesystem::path path = folder / spec;
     if (path.extension() != ".csv")
-        throw_unknown(spec);
+        return lamp(spec);
     Spectrum s = read_spectrum_csv(path);
     const bool visible = [&] {
         for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm)

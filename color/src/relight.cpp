@@ -5,6 +5,7 @@
 #include <string>
 
 #include "rows.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -47,14 +48,12 @@ std::vector<std::vector<Weights>> group_weights(const SpectralImage &transport,
 void check(const SpectralImage &transport, std::span<const Spectrum> lamps,
            const RelightOptions &options) {
     const std::size_t groups = transport.groups.size();
-    const std::string number = std::to_string(groups);
+    const std::string number = detail::counted(groups, "light group");
     if (lamps.size() != 1 && lamps.size() != groups)
-        throw Error(
-            {"there are " + std::to_string(lamps.size()) + " lamps for " + number + " light groups",
-             "lamps", "expected one lamp, or one for each light group"});
+        throw Error({detail::counted(lamps.size(), "lamp") + " for " + number, "lamps",
+                     "expected one lamp, or one for each light group"});
     if (!options.group_scale.empty() && options.group_scale.size() != groups)
-        throw Error({"there are " + std::to_string(options.group_scale.size()) + " scales for " +
-                         number + " light groups",
+        throw Error({detail::counted(options.group_scale.size(), "scale") + " for " + number,
                      "group_scale", "expected none, or one for each light group"});
     for (std::size_t g = 0; g < options.group_scale.size(); ++g)
         if (!(options.group_scale[g] >= 0) || std::isinf(options.group_scale[g]))

@@ -9,6 +9,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 
 #include "channels.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -115,8 +116,8 @@ Layout make_layout(const Sheet &sheet, const std::string &font) {
     layout.rows = (count + layout.columns - 1) / layout.columns;
     if (!sheet.row_labels.empty() &&
         sheet.row_labels.size() != static_cast<std::size_t>(layout.rows))
-        throw Error({"there are " + std::to_string(sheet.row_labels.size()) + " row labels for " +
-                         std::to_string(layout.rows) + " rows",
+        throw Error({detail::counted(sheet.row_labels.size(), "row label") + " for " +
+                         detail::counted(static_cast<std::size_t>(layout.rows), "row"),
                      "sheet.row_labels", "expected none, or one for each row"});
     layout.width = sheet.pictures[0].image.width;
     layout.height = sheet.pictures[0].image.height;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "load_steps.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -10,8 +11,9 @@ namespace tsuya::garment {
 namespace {
 
 std::string counts_of(const PolygonMesh &mesh) {
-    return std::to_string(mesh.position.size()) + " vertices, " + std::to_string(mesh.uv.size()) +
-           " UVs and " + std::to_string(mesh.face_count()) + " faces";
+    return detail::counted(mesh.position.size(), "vertex", "vertices") + ", " +
+           detail::counted(mesh.uv.size(), "UV") + " and " +
+           detail::counted(mesh.face_count(), "face");
 }
 
 void check_same_faces(const PolygonMesh &first, const PolygonMesh &other,
@@ -69,8 +71,8 @@ const LoadedGarment &AnimatedGarment::first() const { return state_->steps.garme
 
 Surface AnimatedGarment::frame(const std::vector<glm::dvec3> &positions) {
     if (positions.size() != state_->vertices)
-        throw Error({std::to_string(positions.size()) + " positions for " +
-                         std::to_string(state_->vertices) + " vertices",
+        throw Error({detail::counted(positions.size(), "position") + " for " +
+                         detail::counted(state_->vertices, "vertex", "vertices"),
                      state_->where, "expected the topology of the first frame"});
     std::vector<glm::dvec3> metres = positions;
     for (glm::dvec3 &p : metres)

@@ -40,11 +40,14 @@ struct Compare final : Command {
         o.argument(&transport, "OUT.exr", "light transport from render or tryon").required();
         o.option("--lamps", &lamps, "A,B,...", "two or more of `tsuya list lamps`, or F.csv")
             .with_commas()
+            .at_least(2)
+            .check([this] { scene::check_lamps(lamps); })
             .required();
         o.option("-o,--output", &output, "SHEET.png", "the pictures side by side")
             .required()
-            .result();
-        o.option("--report", &report, "FILE.json", "file for the colour differences").result();
+            .result({".png"});
+        o.option("--report", &report, "FILE.json", "file for the colour differences")
+            .result({".json"});
         o.flag("--json", &json, "print the colour differences as JSON");
         look.add_to(o);
         add_threads(o, threads);
@@ -53,9 +56,9 @@ struct Compare final : Command {
     }
 
     Status run(Console &) override {
-        scene::check_output_file(output, {".png"});
+        scene::check_output_file(output);
         if (!report.empty())
-            scene::check_output_file(report, {".json"});
+            scene::check_output_file(report);
         std::vector<LampDifference> differences;
         detail::run_with_threads(threads, [&] { differences = compare(); });
         const Json numbers = json_of_differences(differences);
@@ -80,9 +83,9 @@ struct Compare final : Command {
             sheet.pictures.push_back(
                 {scene::picture_under(image, {&lamp, 1}, display), scene::caption_of(lamp)});
         const Image drawn = draw_sheet(sheet);
-        scene::prepare_output_file(output, {".png"});
+        scene::prepare_output_file(output);
         if (!report.empty())
-            scene::prepare_output_file(report, {".json"});
+            scene::prepare_output_file(report);
         write_png(output, drawn);
         return differences;
     }

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "json_file.h"
+#include "look_options.h"
 #include "table_input.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/accuracy.h"
@@ -37,7 +38,8 @@ struct FabricEvaluate final : Command {
         o.option("--channel", &channel, "NAME",
                  "channel of TABLE.csv, such as r or 550nm, where it has several");
         o.option("--model", &model_name, "NAME",
-                 "model, or all that the fabric has the data of; without it, the fabric's own");
+                 "model, or all that the fabric has the data of; without it, the fabric's own")
+            .one_of(model_choices("all"));
         o.option(
              "--reflectance", &reflectance, "R",
              "compare the dyed cloth whose coloured part reflects R at 8 degrees, specular part "
@@ -46,27 +48,29 @@ struct FabricEvaluate final : Command {
         o.option("--part", &part, "PART",
                  "what to compare: surface, the specular part; body, the coloured part; all, both "
                  "(default all with --reflectance, else surface)")
-            .one_of({"all", "surface", "body"});
+            .one_of({"all", "surface", "body"})
+            .check([this] {
+                if (!part.empty() && part != "surface" && !reflectance)
+                    throw Error(Problem{"the coloured part is compared for no reflectance", "",
+                                        "expected --reflectance R"});
+            });
         o.option("--values", &values_file, "VALUES.csv",
                  "file for every row of the table beside the models' values")
-            .result();
+            .result({".csv"});
         o.flag("--json", &json, "print the error measures as JSON");
         o.example("tsuya fabric evaluate black_satin.fabric.toml --against black_satin.csv "
                   "--model all");
         o.notes(
-            "`tsuya list models` names the models. Without --reflectance the specular part is "
+            "Without --reflectance the specular part is "
             "compared, and not the fabric's own dye; `fabric fit` prints the R of each channel.");
     }
 
     Status run(Console &console) override {
         if (!values_file.empty())
-            scene::check_output_file(values_file, {".csv"});
+            scene::check_output_file(values_file);
         const Progress progress = console.progress();
         if (part.empty())
             part = reflectance ? "all" : "surface";
-        if (part != "surface" && !reflectance)
-            throw Error({"the coloured part is compared for no reflectance", "--part",
-                         "expected --reflectance R"});
         const Fabric fabric = read_fabric(fabric_file, progress);
         const ReflectanceTable table = read_channel(table_file, channel, console);
         const TableAccuracy against(table, progress);
@@ -81,7 +85,7 @@ struct FabricEvaluate final : Command {
         if (model_name == "all")
             models = models_of(fabric);
         if (!values_file.empty())
-            scene::prepare_output_file(values_file, {".csv"});
+            scene::prepare_output_file(values_file);
         std::vector<Result> results;
         std::vector<BrdfFunction> functions;
         for (const std::string &model : models) {

@@ -30,7 +30,9 @@ struct FabricFit final : Command {
 
     void options(Options &o) override {
         o.argument(&table_file, "TABLE.csv", "measured reflectance").required();
-        o.option("-o,--output", &output, "F.fabric.toml", "the fabric").required().result();
+        o.option("-o,--output", &output, "F.fabric.toml", "the fabric")
+            .required()
+            .result({".toml"});
         o.option("--name", &name, "NAME", "name of the fabric; without it, that of the table");
         o.option("--f0", &f0, "F0", "reflectance of the fibre at normal incidence").range(1e-6, 1);
         o.option(
@@ -45,7 +47,12 @@ struct FabricFit final : Command {
         o.option("--model", &model, "NAME",
                  "model that carries the views to other light; without it, yarn or ggx by "
                  "cross-validation")
-            .one_of(carried_models());
+            .one_of(carried_models())
+            .check([this] {
+                if (use == "all" && model.value_or("yarn") != "yarn")
+                    throw Error(Problem{"--use all fits the model yarn, not " + *model, "",
+                                        "expected yarn, or --use normal"});
+            });
         o.flag("--json", &json, "print the residuals as JSON");
         o.example("tsuya fabric fit black_satin.csv -o black_satin.fabric.toml");
         o.notes("TABLE.csv has the columns theta_i_deg, phi_i_deg (towards the light), "
@@ -53,7 +60,8 @@ struct FabricFit final : Command {
                 "optionally sigma_per_sr (its standard error). theta is counted from the normal, "
                 "phi from the weft. A line `# symmetry: orthotropic`, `half-turn` or `none` before "
                 "them declares the symmetry. Columns brdf_r, brdf_g, brdf_b or such as brdf_550nm "
-                "in place of brdf_per_sr are those of a dyed cloth, whose dye is told apart.\n"
+                "in place of brdf_per_sr are those of a dyed cloth, whose dye is separated from "
+                "the surface.\n"
                 "Without --model, yarn and ggx are each fitted to four fifths of the views, five "
                 "times, and the fabric takes the one that is nearer to the views left out. The "
                 "residual of the fabric's model at each row is printed; where it misses the views "
@@ -62,10 +70,7 @@ struct FabricFit final : Command {
     }
 
     Status run(Console &console) override {
-        if (use == "all" && model.value_or("yarn") != "yarn")
-            throw WrongCall({"--use all fits the model yarn", "--model " + *model,
-                             "expected yarn, or --use normal"});
-        scene::check_output_file(output, {".toml"});
+        scene::check_output_file(output);
         const ReflectanceFile read = read_table(table_file, console);
         const Progress progress = console.progress();
         const std::optional<DyedCloth> dyed = separated(read, progress);
@@ -104,7 +109,7 @@ struct FabricFit final : Command {
         if (material.specular)
             report.after = oblique(table, *material.specular, progress);
         report.f0 = f0_of(views);
-        scene::prepare_output_file(output, {".toml"});
+        scene::prepare_output_file(output);
         write_fabric(fabric, output);
         json ? print_json(report) : print_text(report);
         warn(report, console);

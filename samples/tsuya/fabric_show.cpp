@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command.h"
+#include "look_options.h"
 #include "table_input.h"
 #include "tsuya/color/srgb.h"
 #include "tsuya/lab/weave_picture.h"
@@ -41,22 +42,38 @@ struct FabricShow final : Command {
     void options(Options &o) override {
         Option &of_fabric = o.argument(&fabric, "F.fabric.toml", "fabric");
         Option &of_weave = o.option("--weave", &weave_name, "WEAVE",
-                                    "WEAVE.toml, DRAFT.wif or a preset, in place of a fabric");
+                                    "WEAVE.toml, DRAFT.wif or a preset, in place of a fabric")
+                               .check([this] { check_weave_name(weave_name); });
         o.one_of(of_fabric, of_weave);
-        o.option("-o,--output", &output, "PICTURE", "PICTURE.svg or .png").required().result();
+        o.option("-o,--output", &output, "PICTURE", "PICTURE.svg or .png")
+            .required()
+            .result({".svg", ".png"});
         o.option("--view", &view, "VIEW", "what is drawn of a fabric")
             .one_of({"lobes", "bodies", "map", "rings"})
             .needs(of_fabric);
         o.option("--model", &models, "A,B,...",
                  "model, several for `rings`; without it, the fabric's own")
             .with_commas()
-            .needs(of_fabric);
+            .one_of(model_choices())
+            .needs(of_fabric)
+            .check([this] {
+                refuse_unless(view == "rings" || models.size() < 2, "several names have",
+                              "--view rings");
+                refuse_unless(view != "map" || models.empty(), "it has", "another view than map");
+            });
         o.option("--theta-i", &theta_i_deg, "DEGREES",
                  "polar angle of the light of `rings`; 45 without it")
             .range(0, 89)
-            .needs(of_fabric);
+            .needs(of_fabric)
+            .check([this] {
+                refuse_unless(view == "rings" || !theta_i_deg, "it has", "--view rings");
+            });
         o.option("--against", &table, "TABLE.csv", "measured reflectance, drawn as points")
-            .needs(of_fabric);
+            .needs(of_fabric)
+            .check([this] {
+                refuse_unless(view == "rings" || view == "lobes" || table.empty(), "it has",
+                              "--view lobes or rings");
+            });
         o.option("--tilt", &tilt_deg, "DEGREES",
                  "angle by which the view of the weave is tilted from its normal")
             .range(0, 70)
@@ -76,19 +93,18 @@ struct FabricShow final : Command {
             "Views of a fabric, which need gnuplot: `lobes` in the warp, bias and weft planes, and "
             "the map of the measured views; `bodies`, the lobes in space from three sides; `map`, "
             "the measured views and the tilts of the facets; `rings`, around the normal at theta_r "
-            "30 and 60 degrees.\n--weave draws the filaments, beside the draft of the same part "
+            "30 and 60 degrees.\n--weave shows the filaments, beside the draft of the same part "
             "of the cloth.");
     }
 
     Status run(Console &console) override {
-        scene::check_output_file(output, {".svg", ".png"});
+        scene::check_output_file(output);
         weave_name.empty() ? show_fabric(console) : show_weave(console);
         std::cout << output.string() << "\n";
         return kDone;
     }
 
     void show_fabric(Console &console) const {
-        refuse_unused();
         scene::RingPlot plot{.fabric = read_fabric(fabric), .models = models};
         if (plot.models.empty())
             plot.models = {std::string(model_of(plot.fabric))};
@@ -105,23 +121,15 @@ struct FabricShow final : Command {
             scene::plot_rings(plot, output);
     }
 
-    // Options that the view does not look at.
-    void refuse_unused() const {
-        const auto refuse = [&](bool given, const char *option, const char *views) {
-            if (given)
-                throw Error({std::string(option) + " has no effect on --view " + view, option,
-                             std::string("expected with ") + views});
-        };
-        const bool rings = view == "rings", lobes = view == "lobes";
-        refuse(!rings && models.size() > 1, "--model with several names", "--view rings");
-        refuse(view == "map" && !models.empty(), "--model", "another view than map");
-        refuse(!rings && !lobes && !table.empty(), "--against", "--view lobes or rings");
-        refuse(!rings && theta_i_deg.has_value(), "--theta-i", "--view rings");
+    /// For an option that the view does not look at.
+    void refuse_unless(bool rule, const std::string &what, const std::string &views) const {
+        if (!rule)
+            throw Error(Problem{what + " no effect on --view " + view, "", "expected " + views});
     }
 
     void show_weave(Console &console) {
         const lab::Weave weave = weave_named(weave_name);
-        scene::prepare_output_file(output, {".svg", ".png"});
+        scene::prepare_output_file(output);
         settings.height = settings.width;
         settings.across = across_mm * 1e-3;
         settings.tilt = tilt_deg * kDegree;

@@ -41,15 +41,25 @@ struct FabricSimulate final : Command {
     bool json = false;
 
     void options(Options &o) override {
-        o.argument(&weave_name, "WEAVE", "WEAVE.toml, DRAFT.wif or a preset").required();
-        o.option("-o,--output", &output, "TABLE.csv", "simulated reflectance").required().result();
+        o.argument(&weave_name, "WEAVE", "WEAVE.toml, DRAFT.wif or a preset")
+            .required()
+            .check([this] { check_weave_name(weave_name); });
+        o.option("-o,--output", &output, "TABLE.csv", "simulated reflectance")
+            .required()
+            .result({".csv"});
         o.option("--directions", &directions_name, "SET",
                  "directions of light and view: normal, light along the normal; paper, the set of "
                  "Takeda et al.; or a table of reflectance, for its directions")
+            .one_of({"normal", "paper"})
             .or_file();
         o.option("--step", &step_deg, "DEGREES",
                  "angle between views: 5 for normal; 3 for paper (theta; about 5/3 of it in phi)")
-            .range(0.5, 45);
+            .range(0.5, 45)
+            .check([this] {
+                if (step_deg && directions_name != "normal" && directions_name != "paper")
+                    throw Error(Problem{"it has no meaning for the directions of a table", "",
+                                        "expected --directions normal or paper"});
+            });
         o.option("--photons", &settings.photons, "N", "most photons for a direction of light")
             .range(1, static_cast<double>(std::uint64_t{1} << 40));
         o.option("--error", &settings.error, "E",
@@ -72,7 +82,7 @@ struct FabricSimulate final : Command {
     }
 
     Status run(Console &console) override {
-        scene::check_output_file(output, {".csv"});
+        scene::check_output_file(output);
         const lab::Weave weave = weave_named(weave_name);
         const Symmetry symmetry = lab::symmetry_of(weave);
         const Directions directions = read_directions(symmetry);
@@ -85,7 +95,7 @@ struct FabricSimulate final : Command {
                                           : lab::LightPart::all;
         settings.checkpoint = output;
         settings.checkpoint += ".checkpoint";
-        scene::prepare_output_file(output, {".csv"});
+        scene::prepare_output_file(output);
         if (settings.resume && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
         const lab::FilamentRepeat repeat =
@@ -107,12 +117,8 @@ struct FabricSimulate final : Command {
     Directions read_directions(Symmetry symmetry) const {
         if (directions_name == "normal")
             return normal_incidence(step_deg.value_or(kNormalStep), symmetry);
-        if (directions_name != "paper") {
-            if (step_deg)
-                throw Error({"--step has no meaning for the directions of a table", "--step",
-                             "expected --directions normal or paper"});
+        if (directions_name != "paper")
             return directions_of(read_reflectance_table(directions_name));
-        }
         return step_deg ? paper_directions(*step_deg, phi_step(*step_deg)) : paper_directions();
     }
 
@@ -166,9 +172,10 @@ struct FabricSimulate final : Command {
                       << std::setprecision(5) << std::setw(11) << light.reflected << std::setw(9)
                       << light.reflected_sigma << std::setw(12) << light.transmitted << std::setw(9)
                       << light.transmitted_sigma << std::setw(14) << light.relative_error << "\n";
-        std::cout << measured.photons << " photons, " << measured.rays << " rays, "
-                  << std::setprecision(1) << measured.seconds << " s, " << std::setprecision(3)
-                  << rate(measured) * 1e-6 << " million photons/s\n";
+        std::cout << detail::counted(measured.photons, "photon") << ", "
+                  << detail::counted(measured.rays, "ray") << ", " << std::setprecision(1)
+                  << measured.seconds << " s, " << std::setprecision(3) << rate(measured) * 1e-6
+                  << " million photons/s\n";
     }
 
     void print_json(const lab::Measurement &measured) const {

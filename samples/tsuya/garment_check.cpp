@@ -56,9 +56,9 @@ struct GarmentCheck final : Command {
         const glm::dvec3 size = r.upper - r.lower;
         std::cout << mesh.string() << "\n  " << counted(r.faces, "face") << " ("
                   << counted(r.triangles, "triangle") << ", " << counted(r.quads, "quad") << ", "
-                  << r.ngons << " larger), " << r.vertices
-                  << (r.vertices == 1 ? " vertex, " : " vertices, ") << counted(r.uvs, "UV")
-                  << "\n  " << (r.panels == 0 ? "no panels" : counted(r.panels, "panel")) << ", "
+                  << r.ngons << " larger), " << counted(r.vertices, "vertex", "vertices") << ", "
+                  << counted(r.uvs, "UV") << "\n  "
+                  << (r.panels == 0 ? "no panels" : counted(r.panels, "panel")) << ", "
                   << counted(r.parts, "part") << " after joining " << r.parts_before << ", "
                   << counted(r.openings.size(), "opening") << "\n  " << size.x << " x " << size.y
                   << " x " << size.z << " m, area " << r.area << " m2\n";

@@ -29,7 +29,7 @@ struct GarmentSubdivide final : Command {
         o.option("-o,--output", &output, "OUT.obj|OUT.ply",
                  "the triangles; a PLY has warp and weft, too")
             .required()
-            .result();
+            .result({".obj", ".ply"});
         add_unit(o, unit, "length unit of the mesh");
         const Option &levels =
             o.option("--level", &level, "N", "level of subdivision: each edge is cut into 2^N")
@@ -53,12 +53,13 @@ struct GarmentSubdivide final : Command {
         o.flag("--strict", &strict, "refuse a mesh with a warning");
         o.option("--grain", &grain, "DIRECTION",
                  "warp direction of a mesh without UV: vertical, horizontal, or degrees from the "
-                 "vertical");
+                 "vertical")
+            .check([this] { parse_grain(grain); });
         o.example("tsuya garment subdivide dress.obj -o fine.ply --tolerance 1e-4");
     }
 
     Status run(Console &console) override {
-        scene::check_output_file(output, {".obj", ".ply"});
+        scene::check_output_file(output);
         const garment::Options settings{.metres_per_unit = garment::metres_per(unit),
                                         .seams = seams,
                                         .subdivide = {.level = level,

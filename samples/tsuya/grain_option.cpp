@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "options.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya::program {
 
@@ -19,8 +19,8 @@ std::optional<double> parse_grain(const std::string &text) {
     double degrees = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), degrees);
     if (error != std::errc{} || stop != text.data() + text.size() || !(std::abs(degrees) <= 360))
-        throw WrongCall({"'" + text + "' is no direction of the warp", "--grain",
-                         "expected vertical, horizontal, or degrees from the vertical"});
+        throw Error({"'" + text + "' is no direction of the warp", "--grain",
+                     "expected vertical, horizontal, or degrees from the vertical"});
     return degrees * kDegree;
 }
 

@@ -8,7 +8,7 @@
 namespace tsuya::program {
 
 /// Radians counter-clockwise from the vertical, of `vertical`, `horizontal` or degrees; nullopt for
-/// an empty text. Throws WrongCall for anything else.
+/// an empty text. Throws Error for anything else.
 std::optional<double> parse_grain(const std::string &text);
 
 } // namespace tsuya::program

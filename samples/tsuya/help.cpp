@@ -130,7 +130,7 @@ std::string help_of_program(std::span<const CommandEntry> table, const Options &
     return "Renders garments of silk-like woven fabric under any lamp.\n"
            "Usage: tsuya COMMAND [OPTIONS]\n\nCommands:\n" +
            commands + list_of(common) + help_entry() + entry("--version", "print the version") +
-           example_of(common) + "`tsuya COMMAND --help` tells more.\n\n" +
+           example_of(common) + "`tsuya COMMAND --help` has all its options.\n\n" +
            wrapped(common.notes(), 0, 0) + "\n";
 }
 
@@ -147,7 +147,7 @@ std::string help_of_group(const CommandEntry &group, std::span<const CommandEntr
 std::string help_of_command(const CommandEntry &command, const Options &options) {
     return std::string(command.about) + "\n" + usage_of(command, options) + list_of(options) +
            help_entry() +
-           entry("--progress MODE", "how progress is told on stderr; see `tsuya --help`") +
+           entry("--progress MODE", "how progress is reported on stderr; see `tsuya --help`") +
            example_of(options) +
            (options.notes().empty() ? "" : wrapped(options.notes(), 0, 0) + "\n");
 }

@@ -57,7 +57,8 @@ Json json_of(const lab::ChannelMeasurement &channel) {
 
 struct LabMeasure final : Command {
     std::filesystem::path session_folder{}, output{}, report{}, page{}, map{}, sheet{};
-    std::vector<std::string> repeat{}, without{};
+    std::vector<double> repeat_mm{};
+    std::vector<std::string> without{};
     double jump = lab::MeasureSettings{}.jump_limit;
 
     void options(Options &o) override {
@@ -65,24 +66,25 @@ struct LabMeasure final : Command {
         o.option("-o,--output", &output, "TABLE.csv",
                  "table of reflectance; of a camera with several colours TABLE.R.csv and so on")
             .required()
-            .result();
+            .result({".csv"});
         o.option("--report", &report, "R.json",
                  "every view with the parts of its error, the lamp, what is left out and why")
-            .result();
+            .result({".json"});
         o.option("--html", &page, "PAGE.html",
                  "page of the session: lamp, shutter and frames, drift, errors, what is left out")
-            .result();
+            .result({".html"});
         o.option("--map", &map, "MAP.svg",
                  "the values on the hemisphere, of the first colour; what is left out is crossed")
-            .result();
+            .result({".svg"});
         o.option("--sheet", &sheet, "SHEET.png", "some frames, with the measured patch outlined")
-            .result();
+            .result({".png"});
         o.option(
-             "--repeat-mm", &repeat, "WEFT,WARP",
+             "--repeat-mm", &repeat_mm, "WEFT,WARP",
              "size of the weave's repeat, mm: patches are cut to whole repeats; without it, the "
              "spread of patches is counted as error")
             .with_commas()
-            .exactly(2);
+            .exactly(2)
+            .range(0, 1e3, true);
         o.option("--jump", &jump, "SHARE",
                  "relative difference of two white frames that is no drift: views between them are "
                  "left out")
@@ -95,11 +97,11 @@ struct LabMeasure final : Command {
     }
 
     Status run(Console &console) override {
-        scene::check_output_file(output, {".csv"});
-        check_place(report, ".json");
-        check_place(page, ".html");
-        check_place(map, ".svg");
-        check_place(sheet, ".png");
+        scene::check_output_file(output);
+        check_place(report);
+        check_place(page);
+        check_place(map);
+        check_place(sheet);
         const lab::Session session = lab::read_session(session_folder);
         check_output(session);
         const lab::SessionMeasurement measured =
@@ -107,29 +109,29 @@ struct LabMeasure final : Command {
         console.end_line();
         for (const std::string &warning : measured.warnings)
             console.warning(warning);
-        scene::prepare_output_file(output, {".csv"});
+        scene::prepare_output_file(output);
         for (const lab::ChannelMeasurement &channel : measured.channels)
             write_reflectance_table(channel.table, table_of(channel, measured));
-        if (prepare_place(report, ".json"))
+        if (prepare_place(report))
             write_file(report, json_of(session, measured).text() + "\n");
-        if (prepare_place(page, ".html"))
+        if (prepare_place(page))
             write_file(page, lab::session_page(session, measured));
-        if (prepare_place(map, ".svg"))
+        if (prepare_place(map))
             write_file(map, lab::table_picture(session, measured));
-        if (prepare_place(sheet, ".png"))
+        if (prepare_place(sheet))
             write_png(sheet, lab::contact_sheet(session, measured));
         print(measured);
         return measured.left_out.empty() ? kDone : kCheckFailed;
     }
 
     /// Of a result that may not be asked for.
-    static void check_place(const std::filesystem::path &file, const std::string &extension) {
+    static void check_place(const std::filesystem::path &file) {
         if (!file.empty())
-            scene::check_output_file(file, {extension});
+            scene::check_output_file(file);
     }
-    static bool prepare_place(const std::filesystem::path &file, const std::string &extension) {
+    static bool prepare_place(const std::filesystem::path &file) {
         if (!file.empty())
-            scene::prepare_output_file(file, {extension});
+            scene::prepare_output_file(file);
         return !file.empty();
     }
 
@@ -146,8 +148,8 @@ struct LabMeasure final : Command {
 
     lab::MeasureSettings settings() const {
         lab::MeasureSettings settings{.jump_limit = jump};
-        if (!repeat.empty())
-            settings.repeat_mm = {number_of(repeat[0]), number_of(repeat[1])};
+        if (!repeat_mm.empty())
+            settings.repeat_mm = {repeat_mm[0], repeat_mm[1]};
         const auto on = [&](const char *name) {
             return std::find(without.begin(), without.end(), name) == without.end();
         };
@@ -158,15 +160,6 @@ struct LabMeasure final : Command {
                                 .trap = on("trap"),
                                 .drift = on("drift")};
         return settings;
-    }
-
-    static double number_of(const std::string &word) {
-        char *end = nullptr;
-        const double value = std::strtod(word.c_str(), &end);
-        if (*end != '\0' || !(value > 0 && value < 1e3))
-            throw WrongCall(Problem{"'" + word + "' is no length", "--repeat-mm",
-                                    "expected two lengths in mm such as 0.4,0.4"});
-        return value;
     }
 
     /// Where the table of a colour stands.

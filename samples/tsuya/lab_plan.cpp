@@ -27,12 +27,15 @@ struct LabPlan final : Command {
 
     void options(Options &o) override {
         o.argument(&rig_file, "RIG.toml", "rig file").required();
-        o.option("-o,--output", &output, "PLAN.jsonl", "plan of the session").required().result();
+        o.option("-o,--output", &output, "PLAN.jsonl", "plan of the session")
+            .required()
+            .result({".jsonl"});
         o.option("--views", &views, "VIEWS",
                  "directions to measure: few:STEP, views every STEP degrees (0.5 to 90), light "
                  "along the normal; paper, the set of Takeda et al.; or a table of reflectance, "
                  "for its directions")
-            .or_file();
+            .or_file()
+            .check([this] { lab::check_views_name(views); });
         o.option("--symmetry", &symmetry, "S",
                  "symmetry of the cloth, whose repeated views few:STEP leaves out; without it, "
                  "half-turn for few:STEP, none for paper, and that of a table")
@@ -43,7 +46,7 @@ struct LabPlan final : Command {
         o.option("--white-every", &white_every, "N", "views between white frames").range(1, 1e4);
         o.option("--picture", &picture, "PLAN.svg",
                  "the views on the hemisphere, in their order, with those that are left out")
-            .result();
+            .result({".svg"});
         o.flag("--json", &json, "print the report as JSON");
         o.example("tsuya lab plan ogm.rig.toml --views few:5 -o satin.plan.jsonl");
         o.notes("Views that the rig cannot take are left out; the plan names each with its "
@@ -51,9 +54,9 @@ struct LabPlan final : Command {
     }
 
     Status run(Console &) override {
-        scene::check_output_file(output, {".jsonl"});
+        scene::check_output_file(output);
         if (!picture.empty())
-            scene::check_output_file(picture, {".svg"});
+            scene::check_output_file(picture);
         const lab::RigFile rig = lab::read_rig_file(rig_file);
         const Directions directions =
             lab::views_named(views, symmetry_named(symmetry.value_or("")));
@@ -64,10 +67,10 @@ struct LabPlan final : Command {
                                  .white = white == kWhites[0] ? lab::WhiteUse::each_light
                                                               : lab::WhiteUse::each_view,
                                  .white_every = static_cast<std::size_t>(white_every)});
-        scene::prepare_output_file(output, {".jsonl"});
+        scene::prepare_output_file(output);
         lab::write_plan(plan, output);
         if (!picture.empty()) {
-            scene::prepare_output_file(picture, {".svg"});
+            scene::prepare_output_file(picture);
             write_file(picture, lab::plan_picture(plan));
         }
         const lab::PlanEstimate sum = lab::estimate(plan, rig);

@@ -19,8 +19,6 @@ std::chrono::nanoseconds nanoseconds_of(double ms) {
     return std::chrono::round<std::chrono::nanoseconds>(Milliseconds(ms));
 }
 
-constexpr double kLongestMs = 1e9; // run_pulse_job knows the limits
-
 double ms_of(std::chrono::nanoseconds time) { return Milliseconds(time).count(); }
 
 /// The options of one line.
@@ -78,20 +76,22 @@ struct LabPulse final : Command {
         shutter.options(o, "--line", "shutter", nullptr);
         const Option &lamp_option =
             o.option("--lamp-line", &lamp_line, "LINE",
-                     "name or offset of the lamp's line; without it no lamp is driven");
+                     "name or offset of the lamp's line; without it no lamp is driven")
+                .check([this] { lab::check_pulse_lines(with_lines()); });
         lamp.options(o, "--lamp", "lamp", &lamp_option);
         o.option("--width-ms", &width_ms, "MS", "milliseconds that the shutter is open")
-            .range(0, kLongestMs);
+            .range(0, ms_of(lab::kLongestPeriod), true);
         o.option("--period-ms", &period_ms, "MS", "milliseconds from one opening to the next")
-            .range(0, kLongestMs);
-        o.option("--count", &job.train.count, "N", "number of pulses").range(1, 1e6);
+            .range(0, ms_of(lab::kLongestPeriod), true)
+            .check([this] { lab::check_pulse_train(train()); });
+        o.option("--count", &job.train.count, "N", "number of pulses").range(1, lab::kMostPulses);
         o.option("--warm-up-ms", &warm_up_ms, "MS",
                  "milliseconds that the lamp is on before the first pulse")
-            .range(0, kLongestMs);
+            .range(0, ms_of(lab::kLongestWarmUp));
         o.option("--tolerance-ms", &tolerance_ms, "MS",
                  "how late an opening or closing may be; without it, the larger of 0.5 ms and 2 % "
                  "of the width")
-            .range(0, kLongestMs);
+            .range(0, ms_of(lab::kLongestPeriod), true);
         o.flag("--simulate", &job.simulate, "simulated lines in virtual time, without hardware");
         o.flag("--json", &json, "print the report as JSON");
         o.example("tsuya lab pulse --line shutter --lamp-line lamp --width-ms 20 --count 5");
@@ -99,16 +99,28 @@ struct LabPulse final : Command {
                 "printed\nalso where the run ends with an error or is interrupted.");
     }
 
-    Status run(Console &console) override {
-        job.train.width = nanoseconds_of(width_ms);
-        job.train.period = nanoseconds_of(period_ms);
-        job.train.warm_up = nanoseconds_of(warm_up_ms);
+    lab::PulseTrain train() const {
+        lab::PulseTrain asked = job.train;
+        asked.width = nanoseconds_of(width_ms);
+        asked.period = nanoseconds_of(period_ms);
+        asked.warm_up = nanoseconds_of(warm_up_ms);
         if (tolerance_ms)
-            job.train.tolerance = nanoseconds_of(*tolerance_ms);
-        job.library_threads = lab::other_threads(); // none is our own yet
-        job.shutter = shutter.settings(line);
+            asked.tolerance = nanoseconds_of(*tolerance_ms);
+        return asked;
+    }
+
+    lab::PulseJob with_lines() const {
+        lab::PulseJob asked = job;
+        asked.shutter = shutter.settings(line);
         if (lamp_line)
-            job.lamp = lamp.settings(*lamp_line);
+            asked.lamp = lamp.settings(*lamp_line);
+        return asked;
+    }
+
+    Status run(Console &console) override {
+        job = with_lines();
+        job.train = train();
+        job.library_threads = lab::other_threads(); // none is our own yet
         try {
             print(pulse(console));
         } catch (const lab::PulsesFailed &failed) {

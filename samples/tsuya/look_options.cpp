@@ -1,6 +1,7 @@
 #include "look_options.h"
 
 #include "tsuya/scene/picture.h"
+#include "tsuya/sdk/model.h"
 
 namespace tsuya::program {
 
@@ -8,16 +9,17 @@ LookOptions::LookOptions()
     : adapt(to_string(scene::default_look().adapt)), view(scene::default_look().view) {}
 
 void LookOptions::add_to(Options &options) {
-    options.option("--adapt", &adapt, "NAME",
-                   "chromatic adaptation from the lamp to the display's white: none, bradford, "
-                   "cat02");
-    options.option("--view", &view, "NAME", "display view, see `tsuya list views`");
+    options
+        .option("--adapt", &adapt, "NAME",
+                "chromatic adaptation from the lamp to the display's white")
+        .one_of(adaptation_names());
+    options.option("--view", &view, "NAME", "display view, see `tsuya list views`")
+        .one_of(view_names());
     options.option("--exposure", &exposure_stops, "STOPS", "exposure; 1 doubles the light")
         .range(-20, 20);
 }
 
 DisplayOptions LookOptions::look() const {
-    view_description(view);
     return {.adapt = parse_adaptation(adapt), .view = view, .exposure_stops = exposure_stops};
 }
 
@@ -35,6 +37,15 @@ void add_unit(Options &options, std::string &unit, std::string help) {
 void add_threads(Options &options, int &threads) {
     options.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
         .range(0, 4096);
+}
+
+std::vector<std::string> model_choices(const std::string &more) {
+    std::vector<std::string> names;
+    for (const ModelName &model : model_names())
+        names.emplace_back(model.name);
+    if (!more.empty())
+        names.push_back(more);
+    return names;
 }
 
 } // namespace tsuya::program

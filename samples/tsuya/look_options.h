@@ -3,6 +3,7 @@
 /// Options that several commands have.
 
 #include <string>
+#include <vector>
 
 #include "options.h"
 #include "tsuya/color/config.h"
@@ -13,7 +14,6 @@ namespace tsuya::program {
 struct LookOptions {
     LookOptions();
     void add_to(Options &options);
-    /// Throws Error for unknown names.
     DisplayOptions look() const;
 
     std::string adapt, view;
@@ -25,6 +25,9 @@ void add_sewing_tolerance(Options &options, double &metres);
 
 /// `--unit`. \param help what has the unit
 void add_unit(Options &options, std::string &unit, std::string help);
+
+/// The names of models, for Option::one_of. \param more one more value, where not empty
+std::vector<std::string> model_choices(const std::string &more = {});
 
 /// `--threads`, 0 for all processors
 void add_threads(Options &options, int &threads);

@@ -87,11 +87,18 @@ template <class T> T whole_number_of(const Option &option, const std::string &wo
     return static_cast<T>(number);
 }
 
+bool may_name_file(const std::string &word) {
+    std::error_code code;
+    return std::filesystem::path(word).has_extension() || std::filesystem::exists(word, code);
+}
+
 void check_choice(const Option &option, const std::string &word) {
     const std::vector<std::string> &known = option.choices;
-    if (!known.empty() && std::find(known.begin(), known.end(), word) == known.end())
-        throw WrongCall(
-            {"'" + word + "' is unknown", name_of(option), accepted_names(word, known)});
+    if (known.empty() || std::find(known.begin(), known.end(), word) != known.end() ||
+        (option.may_be_file && may_name_file(word)))
+        return;
+    throw WrongCall({"'" + word + "' is unknown", name_of(option),
+                     accepted_names(word, known) + (option.may_be_file ? "; or a file" : "")});
 }
 
 template <class T> T value_of(const Option &option, const std::string &word) {
@@ -118,6 +125,10 @@ template <class T> void set(const Option &option, T &field) {
             throw WrongCall({detail::counted(option.words.size(), "value") + " given",
                              name_of(option),
                              "expected " + std::to_string(*option.count) + ": " + option.value});
+        if (option.words.size() < option.least_count.value_or(0))
+            throw WrongCall(
+                {detail::counted(option.words.size(), "value") + " given", name_of(option),
+                 "expected at least " + std::to_string(*option.least_count) + ": " + option.value});
         field.clear();
         for (const std::string &word : option.words)
             field.push_back(value_of<Element>(option, word));
@@ -175,6 +186,31 @@ void check_result(const Option &result, const std::deque<Option> &all) {
                                  "expected another name"});
 }
 
+void check_extension(const Option &result) {
+    const std::string &word = result.words.front(),
+                      extension = std::filesystem::path(word).extension();
+    const std::vector<std::string> &known = result.extensions;
+    if (known.empty() || std::find(known.begin(), known.end(), extension) != known.end())
+        return;
+    std::string accepted;
+    for (const std::string &one : known)
+        accepted += (accepted.empty() ? "" : " or ") + one;
+    throw WrongCall({(extension.empty() ? "the name has no extension: "
+                                        : "files of type '" + extension + "' are not written: ") +
+                         word,
+                     name_of(result), "expected a name that ends in " + accepted});
+}
+
+/// Throws WrongCall for what the command's own rules refuse.
+void check_rules(const Option &option) {
+    try {
+        for (const std::function<void()> &rule : option.rules)
+            rule();
+    } catch (const Error &error) {
+        throw WrongCall(error.at(name_of(option)).problems());
+    }
+}
+
 } // namespace
 
 std::string name_of(const Option &option) {
@@ -195,6 +231,8 @@ std::string range_of(const Option &option) {
         return "";
     if (std::isinf(*option.most))
         return (option.is_open ? "above " : "at least ") + text_of(*option.least);
+    if (option.is_open)
+        return "above " + text_of(*option.least) + ", at most " + text_of(*option.most);
     return text_of(*option.least) + " to " + text_of(*option.most);
 }
 
@@ -210,7 +248,7 @@ std::string accepted_by(const Option &option) {
                 text =
                     std::to_string(*option.count) + (is_whole<T>() ? " whole numbers" : " numbers");
             if (!range.empty())
-                return text + (std::isinf(*option.most) ? " " : " from ") + range;
+                return text + (option.is_open || std::isinf(*option.most) ? " " : " from ") + range;
             if constexpr (std::is_unsigned_v<Element>)
                 text += " from 0 to " + std::to_string(std::numeric_limits<Element>::max());
             return text;
@@ -272,13 +310,24 @@ Option &Option::exactly(std::size_t number) {
     return *this;
 }
 
-Option &Option::result() {
+Option &Option::at_least(std::size_t number) {
+    least_count = number;
+    return *this;
+}
+
+Option &Option::result(std::vector<std::string> of_type) {
     is_result = true;
+    extensions = std::move(of_type);
     return *this;
 }
 
 Option &Option::or_file() {
     may_be_file = true;
+    return *this;
+}
+
+Option &Option::check(std::function<void()> rule) {
+    rules.push_back(std::move(rule));
     return *this;
 }
 
@@ -324,6 +373,11 @@ void Options::fill_fields() const {
     for (const Option &option : all_)
         if (option.given)
             std::visit([&](auto *field) { set(option, *field); }, option.field);
+    for (const Option &option : all_)
+        if (option.is_result && option.given)
+            check_extension(option);
+    for (const Option &option : all_)
+        check_rules(option);
 }
 
 } // namespace tsuya::program

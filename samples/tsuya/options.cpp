@@ -79,7 +79,7 @@ class Parser {
         app_.set_version_flag("--version", "tsuya " TSUYA_VERSION);
         program.options
             .option("--progress", &progress_, "MODE",
-                    "how progress is told on stderr: a bar where that is a terminal, lines of "
+                    "how progress is reported on stderr: a bar where that is a terminal, lines of "
                     "text, lines of JSON, not at all")
             .one_of({"auto", "plain", "json", "off"});
         program.options.example("tsuya tryon -o out        the sample dress under three lamps");

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -29,11 +30,11 @@ class WrongCall : public Error {
 };
 
 /// The field that an option fills. What it holds before is the default.
-using Field =
-    std::variant<bool *, int *, std::uint32_t *, std::uint64_t *, double *, std::string *,
-                 std::filesystem::path *, std::optional<int> *, std::optional<std::uint32_t> *,
-                 std::optional<double> *, std::optional<std::string> *, std::vector<int> *,
-                 std::vector<std::string> *, std::vector<std::filesystem::path> *>;
+using Field = std::variant<bool *, int *, std::uint32_t *, std::uint64_t *, double *, std::string *,
+                           std::filesystem::path *, std::optional<int> *,
+                           std::optional<std::uint32_t> *, std::optional<double> *,
+                           std::optional<std::string> *, std::vector<int> *, std::vector<double> *,
+                           std::vector<std::string> *, std::vector<std::filesystem::path> *>;
 
 /// One option: its rules, and after parsing the words that were given for it.
 struct Option {
@@ -46,6 +47,7 @@ struct Option {
     /// The numbers that are accepted; the first one is not where `open` is set.
     Option &range(double least, double most, bool open = false);
     Option &positive() { return range(0, std::numeric_limits<double>::infinity(), true); }
+    /// The only values that are accepted; beside files, where or_file() is set.
     Option &one_of(std::vector<std::string> values);
     /// A list whose values may stand in one word, with commas between.
     Option &with_commas();
@@ -53,10 +55,18 @@ struct Option {
     Option &with_words();
     /// As many values, no more and no fewer.
     Option &exactly(std::size_t count);
+    /// No fewer values.
+    Option &at_least(std::size_t count);
     /// A file that the command writes: it must not be one that the call reads, nor another result.
-    Option &result();
-    /// A text that may also be the name of a file that is read.
+    /// Its name ends in one of the extensions (such as `.png`), where some are given.
+    Option &result(std::vector<std::string> extensions = {});
+    /// A text that may also be the name of a file that is read. Beside the values of one_of(), a
+    /// word with an extension, or of a file that exists, is one.
     Option &or_file();
+    /// A rule of the command's own, for what no input could make right. It is called when all
+    /// fields are filled, also where the option is not given, and throws Error, whose problems are
+    /// reported at this option as a wrong call.
+    Option &check(std::function<void()> rule);
     Option &needs(const Option &other);
     Option &excludes(const Option &other);
 
@@ -67,8 +77,9 @@ struct Option {
     bool is_required = false, has_commas = false, has_words = false, is_open = false;
     bool is_result = false, may_be_file = false;
     std::optional<double> least{}, most{};
-    std::optional<std::size_t> count{};
-    std::vector<std::string> choices{};
+    std::optional<std::size_t> count{}, least_count{};
+    std::vector<std::string> choices{}, extensions{};
+    std::vector<std::function<void()>> rules{};
     std::vector<const Option *> needed{}, excluded{};
 };
 
@@ -92,7 +103,8 @@ class Options {
 
     /// Puts the words that were given into the fields. Throws WrongCall for what breaks the rules
     /// of the options: one that is missing or must not be given, a word that is no such value, a
-    /// result that would replace a file that is read.
+    /// result that would replace a file that is read or has another extension, a value that a
+    /// command's own rule refuses.
     void fill_fields() const;
 
   private:

@@ -24,8 +24,9 @@ struct Relight final : Command {
         o.option("--lamp", &lamps, "LAMP",
                  "name of `tsuya list lamps` or F.csv for all light groups; GROUP=LAMP for one "
                  "of them; may be repeated")
+            .check([this] { scene::check_group_lamps(lamps); })
             .required();
-        o.option("-o,--output", &output, "OUT.png", "the picture").required().result();
+        o.option("-o,--output", &output, "OUT.png", "the picture").required().result({".png"});
         o.option("--bits", &bits, "N", "bits of a sample of the PNG").one_of({"8", "16"});
         look.add_to(o);
         add_threads(o, threads);
@@ -33,13 +34,13 @@ struct Relight final : Command {
     }
 
     Status run(Console &) override {
-        scene::check_output_file(output, {".png"});
+        scene::check_output_file(output);
         const DisplayOptions display = look.look();
         detail::run_with_threads(threads, [&] {
             const SpectralImage image = read_spectral_exr(transport);
             const Image picture =
                 scene::picture_under(image, scene::parse_group_lamps(lamps, image.groups), display);
-            scene::prepare_output_file(output, {".png"});
+            scene::prepare_output_file(output);
             write_png(output, picture, bits);
         });
         std::cout << output.string() << "\n";

@@ -35,7 +35,7 @@ struct Render final : Command {
         o.argument(&scene, "SCENE.toml", "scene file").required();
         const Option &out = o.option("-o,--output", &output, "OUT.exr",
                                      "spectral light transport; required unless --explain")
-                                .result();
+                                .result({".exr"});
         Option &spp = o.option("--spp", &samples, "N", "samples per pixel").range(1, kMostSamples);
         Option &mean = o.option("--error", &error, "E",
                                 "render until the mean relative standard error is below E")
@@ -51,7 +51,13 @@ struct Render final : Command {
         o.option("--crop", &crop, "X0,Y0,X1,Y1",
                  "the pixels to render: columns X0 to X1 - 1, rows Y0 to Y1 - 1")
             .with_commas()
-            .exactly(4);
+            .exactly(4)
+            .range(0, 32768)
+            .check([this] {
+                if (!crop.empty() && (crop[0] >= crop[2] || crop[1] >= crop[3]))
+                    throw Error(
+                        Problem{"there is no pixel in it", "", "expected X0 < X1, Y0 < Y1"});
+            });
         o.option("--aov", &aovs, "A,B,...", "AOVs to write beside the light transport")
             .with_commas()
             .one_of(aov_names());
@@ -65,7 +71,7 @@ struct Render final : Command {
         o.flag("--explain", &explains, "print the plan, and do not render");
         o.option("--stats", &stats, "FILE.json", "file for time, rays and error")
             .needs(out)
-            .result();
+            .result({".json"});
         o.example("tsuya render dress.scene.toml -o dress.exr --spp 128");
         o.notes("Options replace the values of the scene file. SIGINT, SIGTERM and SIGHUP leave "
                 "what there is in OUT.exr, and OUT.exr.checkpoint for --resume; a render that is "
@@ -100,7 +106,7 @@ struct Render final : Command {
             explain_plan(built, settings);
             return kDone;
         }
-        for_each_place(file, scene::prepare_output_file);
+        for_each_place(file, [](const fs::path &place) { scene::prepare_output_file(place); });
         if (resume && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
         const RenderResult result = render(built.scene, settings, console.progress());
@@ -144,10 +150,9 @@ struct Render final : Command {
 
     std::array<int, 4> crop_of(const scene::SceneFile &file) const {
         const int width = file.framing.width, height = file.framing.height;
-        if (crop[0] < 0 || crop[1] < 0 || crop[0] >= crop[2] || crop[1] >= crop[3] ||
-            crop[2] > width || crop[3] > height)
-            throw Error({"the crop lies outside the picture or is empty", "crop",
-                         "expected x0,y0,x1,y1 within " + std::to_string(width) + " x " +
+        if (crop[2] > width || crop[3] > height)
+            throw Error({"the crop reaches out of the picture", "--crop",
+                         "expected X0,Y0,X1,Y1 within " + std::to_string(width) + " x " +
                              std::to_string(height)});
         return {crop[0], crop[1], crop[2], crop[3]};
     }
@@ -166,13 +171,13 @@ struct Render final : Command {
     void check_output() const {
         if (output.empty())
             throw WrongCall({"it is missing", "--output", "expected -o OUT.exr, or --explain"});
-        scene::check_output_file(output, {".exr"});
+        scene::check_output_file(output);
     }
 
     /// What the scene names adds results, and files that they must not replace.
     void check_results(const scene::SceneFile &file) const {
-        for_each_place(file, scene::check_output_file);
-        for_each_place(file, [&](const fs::path &place, const std::vector<std::string> &) {
+        for_each_place(file, [](const fs::path &place) { scene::check_output_file(place); });
+        for_each_place(file, [&](const fs::path &place) {
             for (const fs::path &read : file.files)
                 if (is_same_file(place, read))
                     throw WrongCall({"it would replace a file of the scene", place.string(),
@@ -181,11 +186,11 @@ struct Render final : Command {
     }
 
     template <class Act> void for_each_place(const scene::SceneFile &file, Act &&act) const {
-        act(output, {".exr"});
+        act(output);
         for (const NamedLamp &lamp : file.output.lamps)
-            act(picture_of(lamp), {});
+            act(picture_of(lamp));
         if (!stats.empty())
-            act(stats, {".json"});
+            act(stats);
     }
 
     /// A picture that cannot be written does not end the render.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/table_warnings.h"
 
@@ -28,14 +29,13 @@ ReflectanceTable read_channel(const std::filesystem::path &file, const std::stri
     if (name.empty() && names.size() == 1)
         return std::move(read.channels.front().table);
     const auto found = std::ranges::find(names, name);
+    if (names.front().empty())
+        throw Error({file.string() + " has one column of values and no channels", "--channel",
+                     "leave the option out"});
     if (name.empty() || found == names.end())
-        throw Error(
-            {file.string() + " has " +
-                 (names.front().empty() ? "no channels"
-                                        : std::to_string(names.size()) + " channels") +
-                 (name.empty() ? "" : ", and none is '" + name + "'"),
-             "--channel",
-             names.front().empty() ? "expected no such option" : accepted_names(name, names)});
+        throw Error({file.string() + " has " + detail::counted(names.size(), "channel") +
+                         (name.empty() ? "" : ", and none is '" + name + "'"),
+                     "--channel", accepted_names(name, names)});
     return std::move(read.channels[static_cast<std::size_t>(found - names.begin())].table);
 }
 

@@ -44,7 +44,11 @@ struct TryOn final : Command {
         o.flag("--morph-targets", &job.morph_targets,
                "take the garment's morph targets (glTF) as frames, too")
             .needs(mesh);
-        o.option("--body", &job.body, "MESH", "mesh that wears the garment");
+        o.option("--body", &job.body, "MESH", "mesh that wears the garment").check([this] {
+            if (garment.empty() && job.frames.empty() && !job.body.empty())
+                throw Error(
+                    Problem{"a body without a garment", "", "expected --garment or --frames"});
+        });
         add_unit(o, job.unit, "length unit of the meshes");
         const Option &level =
             o.option("--level", &job.level, "N", "level of subdivision: each edge is cut into 2^N")
@@ -60,7 +64,8 @@ struct TryOn final : Command {
         add_sewing_tolerance(o, job.seams.tolerance);
         o.option("--grain", &grain, "DIRECTION",
                  "warp direction of a garment without UV: vertical, horizontal, or degrees from "
-                 "the vertical");
+                 "the vertical")
+            .check([this] { parse_grain(grain); });
         o.option("--max-degenerate-area", &job.max_degenerate_area, "SHARE",
                  "share of the garment's area without a usable UV above which it is an error")
             .range(0, 1);
@@ -68,13 +73,16 @@ struct TryOn final : Command {
     }
 
     void add_cloth(Options &o) {
-        o.option("--fabric", &fabric, "FABRIC", "F.fabric.toml, or a name of `tsuya list fabrics`");
+        o.option("--fabric", &fabric, "FABRIC", "F.fabric.toml, or a name of `tsuya list fabrics`")
+            .check([this] { check_fabric(); });
         o.option("--dye", &job.dyes, "A,B,...",
                  "dyes, one render each: names of `tsuya list dyes`, #rrggbb, F.csv")
-            .with_commas();
+            .with_commas()
+            .check([this] { scene::check_dyes(job.dyes); });
         o.option("--lamps", &job.lamps, "A,B,...",
                  "lamps, one picture each: names of `tsuya list lamps`, or F.csv")
-            .with_commas();
+            .with_commas()
+            .check([this] { scene::check_lamps(job.lamps); });
         o.option("--azimuth", &job.azimuth_deg, "DEGREES",
                  "direction of the camera; 0 sees the front")
             .range(-360, 360);
@@ -102,8 +110,6 @@ struct TryOn final : Command {
             garment = job.frames.front();
             job.frames.erase(job.frames.begin());
         }
-        if (garment.empty() && !job.body.empty())
-            throw Error({"a body without a garment", "--body", "expected --garment or --frames"});
         if (garment.empty()) {
             const scene::TryOn sample = scene::sample_try_on(data_folder());
             job.garment = sample.garment;
@@ -133,6 +139,18 @@ struct TryOn final : Command {
             return kDone;
         console.error("interrupted; the pictures so far are written");
         return kInterrupted;
+    }
+
+    /// Throws Error for a name that no sample fabric has. Where there is no sample data, the run
+    /// says so.
+    void check_fabric() const {
+        std::filesystem::path folder;
+        try {
+            folder = data_folder();
+        } catch (const Error &) {
+            return;
+        }
+        scene::find_fabric(fabric, folder);
     }
 
     /// The sample data is needed by names and the sample dress only.

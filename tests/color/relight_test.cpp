@@ -146,7 +146,7 @@ TEST(Relight, RefusesWrongCounts) {
     const std::vector<Spectrum> two(2, lamp("D65"));
     test::expect_problem([&] { relight(image, two); }, "lamps", "2 lamps for 3 light groups");
     test::expect_problem([&] { relight(image, lamp("D65"), {.group_scale = {1}}); }, "group_scale",
-                         "1 scales for 3");
+                         "1 scale for 3");
     test::expect_problem(
         [&] {
             relight(image, lamp("D65"), {.group_scale = {1, -2, 1}});

@@ -103,7 +103,7 @@ TEST(Sheet, RefusesWrongInput) {
         [] {
             draw_sheet({.pictures = {picture(0, "")}, .row_labels = {"a", "b"}});
         },
-        "sheet.row_labels", "2 row labels for 1 rows");
+        "sheet.row_labels", "2 row labels for 1 row");
     test::expect_problem(
         [] { draw_sheet({.title = "t", .pictures = {picture(0, "c")}, .font = "/no/font.ttf"}); },
         "sheet.font", "/no/font.ttf");

@@ -107,7 +107,7 @@ TEST(FabricEvaluate, ComparesDyedClothByItsParts) {
     EXPECT_GT(l2_cos("all"), 2 * l2_cos("body"));
     const Outcome refused =
         run_fabric(scratch, {"evaluate", fabric, "--against", table, "--part", "body"});
-    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.err.find("--reflectance"), std::string::npos) << refused.err;
 }
 
@@ -159,7 +159,7 @@ TEST(FabricEvaluate, RefusesWrongInput) {
     EXPECT_EQ(status({satin().string()}, "--against"), 2);
     EXPECT_EQ(
         status({satin().string(), "--against", table, "--model", "takedo"}, "did you mean takeda"),
-        1);
+        2);
     EXPECT_EQ(status({satin().string(), "--against", "no.csv"}, "no.csv"), 1);
     EXPECT_EQ(status({table, "--against", table}, "two.csv:"), 1);
     const std::string plain =
@@ -251,9 +251,9 @@ TEST(FabricSimulate, RefusesWrongInput) {
     };
     EXPECT_EQ(status({"polyester taffeta"}, "--output"), 2);
     EXPECT_EQ(status({"polyester taffeta", "-o", out, "--photons", "0"}, "--photons"), 2);
-    EXPECT_EQ(status({"polyester tafetta", "-o", out}, "did you mean polyester taffeta"), 1);
+    EXPECT_EQ(status({"polyester tafetta", "-o", out}, "did you mean polyester taffeta"), 2);
     EXPECT_EQ(status({"no.wif", "-o", out}, "no.wif"), 1);
-    EXPECT_EQ(status({"polyester taffeta", "-o", (scratch / "n/a.txt").string()}, ".csv"), 1);
+    EXPECT_EQ(status({"polyester taffeta", "-o", (scratch / "n/a.txt").string()}, ".csv"), 2);
     EXPECT_EQ(status({"polyester taffeta", "-o", out, "--directions", "no.csv"}, "no.csv"), 1);
     const std::string bad = scratch.write("bad.toml", "[weave]\ndraft = \"satan 5\"\n").string();
     EXPECT_EQ(status({bad, "-o", out}, "bad.toml:2"), 1);
@@ -291,11 +291,11 @@ TEST(FabricShow, RefusesWrongInput) {
     const Scratch scratch;
     const Outcome kind =
         run_fabric(scratch, {"show", satin().string(), "-o", (scratch / "n/a.pdf").string()});
-    EXPECT_EQ(kind.status, 1);
+    EXPECT_EQ(kind.status, 2);
     EXPECT_NE(kind.err.find("expected a name that ends in .svg"), std::string::npos) << kind.err;
     const Outcome model = run_fabric(scratch, {"show", satin().string(), "-o",
                                                (scratch / "a.svg").string(), "--model", "takedo"});
-    EXPECT_EQ(model.status, 1);
+    EXPECT_EQ(model.status, 2);
     EXPECT_NE(model.err.find("did you mean takeda"), std::string::npos) << model.err;
     EXPECT_FALSE(fs::exists(scratch / "a.svg"));
 }
@@ -343,11 +343,11 @@ TEST(FabricShow, RefusesAWeaveThatItCannotDraw) {
         EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
         EXPECT_FALSE(fs::exists(out));
     };
-    expect({"--weave", "silk charmeus", "-o", out}, 1, "did you mean silk charmeuse");
+    expect({"--weave", "silk charmeus", "-o", out}, 2, "did you mean silk charmeuse");
     expect({"--weave", "none.wif", "-o", out}, 1, "none.wif");
     const std::string bad = scratch.write("bad.toml", "[weave]\ndraft = \"satan 5\"\n").string();
     expect({"--weave", bad, "-o", out}, 1, "bad.toml:2");
-    expect({"--weave", "shot silk", "-o", (scratch / "a.jpg").string()}, 1, ".svg or .png");
+    expect({"--weave", "shot silk", "-o", (scratch / "a.jpg").string()}, 2, ".svg or .png");
     scratch.write("file", "");
     expect({"--weave", "shot silk", "-o", (scratch / "file/a.png").string()}, 1, "file");
     expect({"-o", out}, 2, "neither F.fabric.toml nor --weave");

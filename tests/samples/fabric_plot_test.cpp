@@ -186,12 +186,12 @@ TEST(FabricPlot, RefusesWhatItCannotDraw) {
     const std::string table = ring_table(scratch);
     expect({"--view", "bodie"}, 2, "bodies");
     expect({"--view", "rings", "--theta-i", "90"}, 2, "--theta-i");
-    expect({"--view", "rings", "--model", "takedo"}, 1, "did you mean takeda");
+    expect({"--view", "rings", "--model", "takedo"}, 2, "did you mean takeda");
     expect({"--view", "rings", "--theta-i", "30", "--against", table}, 1, "lies on a ring");
-    expect({"--view", "bodies", "--against", table}, 1, "no effect on --view bodies");
-    expect({"--view", "map", "--model", "yarn"}, 1, "no effect on --view map");
-    expect({"--model", "takeda,yarn"}, 1, "no effect on --view lobes");
-    expect({"--theta-i", "30"}, 1, "no effect on --view lobes");
+    expect({"--view", "bodies", "--against", table}, 2, "no effect on --view bodies");
+    expect({"--view", "map", "--model", "yarn"}, 2, "no effect on --view map");
+    expect({"--model", "takeda,yarn"}, 2, "no effect on --view lobes");
+    expect({"--theta-i", "30"}, 2, "no effect on --view lobes");
 }
 
 } // namespace

@@ -185,7 +185,7 @@ TEST(ForeignTable, AChannelIsComparedByItsName) {
              {{all}, "has 3 channels; expected one of: r, g, b"},
              {{all, "--channel", "x"}, "has 3 channels, and none is 'x'; expected one of: r, g, b"},
              {{red, "--channel", "r"},
-              "has no channels, and none is 'r'; expected no such option"}}) {
+              "has one column of values and no channels; leave the option out"}}) {
         const Outcome wrong = evaluate(more);
         EXPECT_EQ(wrong.status, 1);
         EXPECT_NE(wrong.err.find(says), std::string::npos) << wrong.err;

@@ -1,6 +1,7 @@
 #include "tsuya/scene/scene_file.h"
 
 #include <atomic>
+#include <regex>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
+#include "tsuya/sdk/plan.h"
 
 namespace tsuya::scene {
 namespace {
@@ -349,8 +351,37 @@ TEST(SceneFile, BodiesHaveNoFabricWithAGrain) {
         }
         return std::string("accepted");
     };
-    EXPECT_NE(where("alpha_weft = 0.05\nalpha_warp = 0.6\n").find("objects[1]"), std::string::npos);
+    const std::string refused = where("alpha_weft = 0.05\nalpha_warp = 0.6\n");
+    EXPECT_TRUE(
+        std::regex_match(refused, std::regex(".*/a\\.scene\\.toml:\\d+:\\d+: bodies\\.board")))
+        << refused;
     EXPECT_EQ(where("alpha_weft = 0.2\nalpha_warp = 0.2\n"), "accepted");
+}
+
+// By their names and lines in the file, not by their place in the renderer's arrays.
+TEST(SceneFile, LightsAreNamedAsInTheFile) {
+    const Scratch scratch;
+    scratch.write("cloth.obj", cloth_obj());
+    const SceneFile file =
+        read(scratch, small_scene("[lights.\"far away\"]\ncentre = [9e5, 0, 0]\nradiance = 0\n"));
+    ASSERT_EQ(file.lights.size(), 2u);
+    EXPECT_EQ(file.lights[1].name, "far away");
+    EXPECT_NE(explain(plan(build_scene(file).scene, file.render))
+                  .find("skipped: the light 'far away' is dark"),
+              std::string::npos);
+    SceneFile wrong = file;
+    wrong.lights[1].radiance = -1;
+    wrong.lights[1].corner.x = 1e30;
+    try {
+        build_scene(wrong);
+        ADD_FAILURE() << "accepted";
+    } catch (const Error &error) {
+        ASSERT_EQ(error.problems().size(), 2u);
+        const std::string place = file.light_places[1] + ": lights.far away";
+        EXPECT_EQ(error.problems()[0].where, place);
+        EXPECT_EQ(error.problems()[1].where, place + ".radiance");
+        EXPECT_EQ(place.rfind((scratch / "a.scene.toml").string() + ":", 0), 0u) << place;
+    }
 }
 
 } // namespace

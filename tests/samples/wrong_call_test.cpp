@@ -75,7 +75,7 @@ TEST(WrongCall, NoResultReplacesWhatTheSceneReads) {
     const std::string lamp = scratch.write("lamp.csv", "400,1\n700,1\n").string();
     write_scene(scratch, "[output]\nlamps = [\"lamp.csv\"]\n");
     for (const std::string &file : {(scratch / "cloth.obj").string(), lamp})
-        keeps(file, {"render", scene_file, "-o", out, "--stats", file, "--spp", "1"}, 1,
+        keeps(file, {"render", scene_file, "-o", out, "--stats", file, "--spp", "1"}, 2,
               "ends in .json");
     EXPECT_FALSE(fs::exists(out));
 }
@@ -188,6 +188,85 @@ TEST(WrongCall, ValuesThatAreNoneAreRefusedByTheNameThatWasTyped) {
         EXPECT_EQ(outcome.status, 2) << outcome.err;
         EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
         EXPECT_FALSE(fs::exists(out));
+    }
+}
+
+// What no input could make right is a wrong call, told at the option, before anything is read.
+TEST(WrongCall, ValuesThatNoInputCouldMakeRight) {
+    const Scratch scratch;
+    const auto file = [&](const char *name) { return (scratch / name).string(); };
+    const std::string exr = file("a.exr"), png = file("a.png"), svg = file("a.svg"),
+                      csv = file("a.csv");
+    const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
+        {{"tryon", "-o", exr, "--dye", "crimsom"}, "--dye: there is no dye 'crimsom'"},
+        {{"tryon", "-o", exr, "--dye", "#12345"}, "--dye: '#12345' is not an sRGB colour"},
+        {{"tryon", "-o", exr, "--dye", "black,black"}, "--dye: two dyes have the name 'black'"},
+        {{"tryon", "-o", exr, "--lamps", "D66"}, "--lamps: there is no lamp 'D66'"},
+        {{"tryon", "-o", exr, "--lamps", "A,A"}, "--lamps: two lamps have the name 'A'"},
+        {{"tryon", "-o", exr, "--fabric", "black_satan"}, "--fabric: no sample fabric"},
+        {{"tryon", "-o", exr, "--view", "Sharp"}, "--view: 'Sharp' is unknown"},
+        {{"tryon", "-o", exr, "--adapt", "cat03"}, "--adapt: 'cat03' is unknown"},
+        {{"tryon", "-o", exr, "--body", "b.obj"}, "--body: a body without a garment"},
+        {{"render", "s.toml", "-o", exr, "--crop", "0,0,0,0"}, "--crop: there is no pixel in it"},
+        {{"render", "s.toml", "-o", exr, "--crop", "-1,0,4,4"}, "--crop: '-1' is out of range"},
+        {{"render", "s.toml", "-o", png}, "--output: files of type '.png' are not written"},
+        {{"relight", exr, "--lamp", "D66", "-o", png}, "--lamp: there is no lamp 'D66'"},
+        {{"relight", exr, "--lamp", "key=D66", "-o", png}, "--lamp: there is no lamp 'D66'"},
+        {{"relight", exr, "--lamp", "=A", "-o", png}, "--lamp: '=A' names no light group"},
+        {{"relight", exr, "--lamp", "A", "--lamp", "E", "-o", png}, "--lamp: two lamps for all"},
+        {{"compare", exr, "--lamps", "A", "-o", png},
+         "--lamps: 1 value given; expected at least 2"},
+        {{"fabric", "simulate", "satan 5", "-o", csv}, "WEAVE: unknown weave \"satan 5\""},
+        {{"fabric", "simulate", "w.toml", "-o", csv, "--directions", "papr"},
+         "--directions: 'papr' is unknown; expected one of: normal, paper; did you mean paper?; or "
+         "a file"},
+        {{"fabric", "simulate", "w.toml", "-o", csv, "--directions", "t.csv", "--step", "5"},
+         "--step: it has no meaning for the directions of a table"},
+        {{"fabric", "evaluate", "f.toml", "--against", csv, "--model", "takedo"},
+         "--model: 'takedo' is unknown"},
+        {{"fabric", "evaluate", "f.toml", "--against", csv, "--part", "body"},
+         "--part: the coloured part is compared for no reflectance"},
+        {{"fabric", "show", "f.toml", "-o", svg, "--model", "takedo"},
+         "--model: 'takedo' is unknown"},
+        {{"fabric", "show", "f.toml", "-o", svg, "--model", "yarn,ggx"},
+         "--model: several names have no effect on --view lobes; expected --view rings"},
+        {{"fabric", "show", "f.toml", "-o", svg, "--theta-i", "20"},
+         "--theta-i: it has no effect on --view lobes; expected --view rings"},
+        {{"fabric", "show", "--weave", "satan 5", "-o", png}, "--weave: unknown weave"},
+        {{"lab", "plan", "r.toml", "-o", file("p.jsonl"), "--views", "few:0"},
+         "--views: 'few:0' is no set of views"},
+        {{"lab", "plan", "r.toml", "-o", file("p.jsonl"), "--views", "papers"},
+         "--views: 'papers' is no set of views, and no file"},
+        {{"lab", "pulse", "--simulate", "--width-ms", "0"}, "--width-ms: '0' is out of range"},
+        {{"lab", "pulse", "--simulate", "--width-ms", "200"},
+         "--period-ms: it is 100.000000 ms; expected more than the width of 200.000000 ms"},
+        {{"lab", "pulse", "--simulate", "--warm-up-ms", "1e9"}, "--warm-up-ms: '1e9' is out of"},
+        {{"lab", "pulse", "--simulate", "--lamp-line", "shutter"},
+         "--lamp-line: lamp and shutter are the same line"},
+        {{"lab", "measure", "s", "-o", csv, "--repeat-mm", "0,1"}, "--repeat-mm: '0' is out of"}};
+    for (const auto &[call, says] : calls) {
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 2) << outcome.err;
+        EXPECT_EQ(outcome.err.rfind("tsuya: " + says, 0), 0u) << outcome.err;
+        EXPECT_EQ(scratch.file_count(), 0u);
+    }
+}
+
+// What is wrong with what stands in a file, or with a file, is the input's fault.
+TEST(WrongInput, FilesThatAreNotThere) {
+    const Scratch scratch;
+    const auto file = [&](const char *name) { return (scratch / name).string(); };
+    for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
+             {"tryon", "-o", file("out"), "--dye", "none.csv"},
+             {"tryon", "-o", file("out"), "--lamps", "none.csv"},
+             {"tryon", "-o", file("out"), "--fabric", "none.fabric.toml"},
+             {"fabric", "simulate", "none.wif", "-o", file("a.csv")},
+             {"fabric", "simulate", "polyester taffeta", "--directions", "none.csv", "-o",
+              file("a.csv")},
+             {"lab", "plan", TSUYA_RIG_SAMPLE, "--views", "none.csv", "-o", file("a.jsonl")}}) {
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 1) << outcome.err;
+        EXPECT_EQ(scratch.file_count(), 0u) << outcome.err;
     }
 }
 

@@ -120,12 +120,13 @@ TEST(FileErrors, AFullDiskIsNamed) {
 TEST_F(Files, ACheckpointReadsBackAndRefusesOthers) {
     const fs::path file = folder_ / "a.checkpoint";
     const std::vector<float> sums{1, 2, 3};
-    detail::CheckpointWriter out(file, "test 1", 7);
+    const detail::Fingerprint print{.input = 7, .settings = 9};
+    detail::CheckpointWriter out(file, "test 1", print);
     out.value(42);
     out.array(std::span(sums));
     out.commit();
 
-    detail::CheckpointReader in(file, "test 1", 7);
+    detail::CheckpointReader in(file, "test 1", print);
     int value = 0;
     std::vector<float> found(3);
     in.value(value);
@@ -135,19 +136,47 @@ TEST_F(Files, ACheckpointReadsBackAndRefusesOthers) {
     EXPECT_EQ(found, sums);
 
     using Reader = detail::CheckpointReader;
-    EXPECT_NE(problem_of([&] { Reader(file, "test 1", 8); }).what.find("other input"),
-              std::string::npos);
-    EXPECT_NE(problem_of([&] { Reader(file, "rest 1", 7); }).what.find("no checkpoint"),
-              std::string::npos);
-    EXPECT_NE(problem_of([&] { Reader(file, "test 1", 7).finish(); }).what.find("longer"),
-              std::string::npos);
-    fs::resize_file(file, fs::file_size(file) - 1);
-    EXPECT_NE(problem_of([&] {
-                  Reader cut(file, "test 1", 7);
-                  cut.value(value);
-                  cut.array(std::span(found));
-              }).what.find("cut off"),
-              std::string::npos);
+    const auto refused = [&](const char *kind, const detail::Fingerprint &of) {
+        return problem_of([&] { Reader(file, kind, of); }).what;
+    };
+    EXPECT_EQ(refused("test 1", {8, 9}), "the checkpoint is of other input");
+    EXPECT_EQ(refused("test 1", {7, 8}), "the checkpoint is of other settings");
+    EXPECT_EQ(refused("test 1", {8, 8}), "the checkpoint is of other input and other settings");
+    EXPECT_EQ(refused("rest 1", print), "the file is no checkpoint of rest 1");
+}
+
+// Whichever byte is wrong: it is never taken for another scene, and never read as a number.
+TEST_F(Files, ADamagedCheckpointIsCalledSo) {
+    const fs::path file = folder_ / "a.checkpoint";
+    const detail::Fingerprint print{.input = 7, .settings = 9};
+    detail::CheckpointWriter out(file, "test 1", print);
+    out.value(42);
+    out.commit();
+    const std::string good = read_file(file);
+    const auto read = [&] {
+        detail::CheckpointReader in(file, "test 1", print);
+        int value = 0;
+        in.value(value);
+        in.finish();
+    };
+    read();
+    const std::size_t head = std::string("tsuya-checkpoint test 1\n").size();
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        std::string bad = good;
+        bad[i] = static_cast<char>(bad[i] ^ 4);
+        write_file(file, bad);
+        EXPECT_EQ(problem_of(read).what.rfind(i < head ? "the file is no checkpoint of test 1"
+                                                       : "the checkpoint is damaged: ",
+                                              0),
+                  0u)
+            << i;
+    }
+    for (std::size_t size = head; size < good.size(); ++size) {
+        write_file(file, good.substr(0, size));
+        EXPECT_EQ(problem_of(read).what, "the checkpoint is damaged: it is cut off") << size;
+    }
+    write_file(file, good + "x");
+    EXPECT_EQ(problem_of(read).what, "the checkpoint is damaged: it is longer than its content");
 }
 
 TEST(Hasher, TellsNeighboursApart) {

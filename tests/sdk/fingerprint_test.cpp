@@ -167,7 +167,7 @@ TEST(Fingerprint, KnowsEveryFieldThatChangesThePicture) {
             .stop = &stop});
     ASSERT_TRUE(std::filesystem::exists(settings.checkpoint));
     settings.resume = true;
-    const std::uint64_t print = fingerprint(scene, settings);
+    const tsuya::detail::Fingerprint print = fingerprint(scene, settings);
     EXPECT_EQ(fingerprint(full_scene(), settings), print);
     int refused = 0, free = 0;
     for (int place = 0;; ++place) {
@@ -204,7 +204,7 @@ TEST(Fingerprint, TellsApartWhatHasTheSameNumbers) {
     std::swap(tall.environment->picture->width, tall.environment->picture->height);
     std::get<TabulatedSpecular>(turned.fabrics.back().specular).table.symmetry =
         Symmetry::half_turn;
-    const std::uint64_t print = fingerprint(flat, settings);
+    const tsuya::detail::Fingerprint print = fingerprint(flat, settings);
     EXPECT_NE(fingerprint(tall, settings), print);
     EXPECT_NE(fingerprint(turned, settings), print);
 }

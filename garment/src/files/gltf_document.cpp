@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
@@ -117,7 +118,7 @@ Bytes find_bytes(const tinygltf::Model &model, int view_index, std::size_t offse
                       row_bytes <= view.byteLength - offset &&
                       count - 1 <= (view.byteLength - offset - row_bytes) / stride;
     if (!fits)
-        refuse(std::to_string(count) + " entries do not fit into buffer view " +
+        refuse(detail::counted(count, "entry does", "entries do") + " not fit into buffer view " +
                    std::to_string(view_index),
                where);
     return {data.data() + view.byteOffset + offset, stride};
@@ -248,8 +249,8 @@ std::vector<double> read_accessor(const tinygltf::Model &model, int index, int c
         tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
         refuse("the entries have not " + std::to_string(components) + " numbers", place);
     if (rows > 0 && accessor.count != rows)
-        refuse(std::to_string(accessor.count) + " entries for " + std::to_string(rows) +
-                   " vertices",
+        refuse(detail::counted(accessor.count, "entry", "entries") + " for " +
+                   detail::counted(rows, "vertex", "vertices"),
                place);
     const std::size_t each = component_bytes(accessor.componentType, place);
     const auto width = static_cast<std::size_t>(components);

@@ -6,6 +6,7 @@
 #include "files/text_cursor.h"
 #include "mesh/stop.h"
 #include "tsuya/garment/obj.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -182,7 +183,7 @@ class ObjParser {
             good = parse_corner();
         const std::size_t corners = mesh_.corner_position.size() - first;
         if (good && corners < 3)
-            add_problem("a face has " + std::to_string(corners) + " corners",
+            add_problem("a face has " + detail::counted(corners, "corner"),
                         text_.where(line, column), "expected 3 or more");
         if (!good || corners < 3) {
             mesh_.corner_position.resize(first);

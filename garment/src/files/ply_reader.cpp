@@ -14,6 +14,7 @@
 
 #include "files/polygon_importer.h"
 #include "tsuya/garment/ply.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/text.h"
@@ -51,8 +52,8 @@ std::uint64_t parse_count(std::string_view word, const std::string &where) {
 void check_count(std::uint64_t count, std::uint64_t bytes_each, std::uint64_t bytes,
                  const std::string &where) {
     if (bytes_each > 0 && count > bytes / bytes_each)
-        throw Error({std::to_string(count) + " entries are declared and " + std::to_string(bytes) +
-                         " bytes are left",
+        throw Error({detail::counted(count, "entry is", "entries are") + " declared and " +
+                         detail::counted(bytes, "byte is", "bytes are") + " left",
                      where, "expected no more than the file holds"});
 }
 

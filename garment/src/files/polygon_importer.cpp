@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesh/stop.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -40,9 +41,9 @@ OpenMesh::FaceHandle PolygonImporter::add_face(const VHandles &vertices) {
     const std::size_t face = mesh_.face_count();
     look_at_stop(progress_, face);
     if (vertices.size() < 3)
-        throw Error({"face " + std::to_string(face) + " has " + std::to_string(vertices.size()) +
-                         " corners",
-                     name_, "expected 3 or more"});
+        throw Error(
+            {"face " + std::to_string(face) + " has " + detail::counted(vertices.size(), "corner"),
+             name_, "expected 3 or more"});
     for (const OpenMesh::VertexHandle v : vertices) {
         if (v.idx() < 0 || static_cast<std::size_t>(v.idx()) >= mesh_.position.size())
             throw Error(

@@ -9,6 +9,7 @@
 #include "mesh/stop.h"
 #include "mesh/valence.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -38,7 +39,7 @@ Sdc::SchemeType choose_scheme(const PolygonMesh &mesh, Scheme scheme) {
     const bool triangles = other == mesh.face_count();
     if (scheme == Scheme::loop && !triangles)
         throw Error({"the Loop scheme needs triangles and face " + std::to_string(other) + " has " +
-                         std::to_string(mesh.face_size(other)) + " corners",
+                         detail::counted(mesh.face_size(other), "corner"),
                      "subdivide.scheme", "expected catmark or automatic"});
     const bool loop = scheme == Scheme::loop || (scheme == Scheme::automatic && triangles);
     return loop ? Sdc::SCHEME_LOOP : Sdc::SCHEME_CATMARK;
@@ -69,8 +70,8 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
     check_valence(mesh);
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
         if (mesh.face_size(f) >= kMaxValence)
-            throw Error({"face " + std::to_string(f) + " has " + std::to_string(mesh.face_size(f)) +
-                             " corners",
+            throw Error({"face " + std::to_string(f) + " has " +
+                             detail::counted(mesh.face_size(f), "corner"),
                          "mesh", "expected fewer than " + std::to_string(kMaxValence)});
 }
 

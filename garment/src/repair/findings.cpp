@@ -4,6 +4,7 @@
 
 #include "repair/mesh_repair.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/counted.h"
 
 namespace tsuya::garment {
 namespace {
@@ -37,11 +38,12 @@ class Findings {
         report_.findings.push_back(
             {severity, std::move(key), std::move(what), std::move(where), std::move(action)});
     }
-    /// Only where something was counted.
-    void count(std::size_t n, Severity severity, std::string key, const std::string &what,
-               std::string action) {
+    /// Only where something was counted. \param one, many how `what` begins, of one and of several
+    void count(std::size_t n, Severity severity, std::string key, const std::string &one,
+               const std::string &many, const std::string &what, std::string action) {
         if (n > 0)
-            add(severity, key, std::to_string(n) + " " + what, std::move(action), place(key));
+            add(severity, key, detail::counted(n, one, many) + " " + what, std::move(action),
+                place(key));
     }
 
   private:
@@ -73,47 +75,50 @@ void find_units(const Report &report, Findings &findings) {
 void find_topology(const Report &r, Findings &f) {
     const auto note = Severity::note, warning = Severity::warning;
     f.count(r.file.degenerate_faces, note, "degenerate_faces",
-            "faces have fewer than 3 different vertices or name one twice", "dropped");
-    f.count(r.file.duplicate_faces, warning, "duplicate_faces",
-            "faces have the same vertices as another", "dropped");
-    f.count(r.file.isolated_vertices, note, "isolated_vertices", "vertices belong to no face",
-            "dropped");
-    f.count(r.file.non_manifold_edges, warning, "non_manifold_edges",
-            "edges border more than two faces", "taken apart in pairs");
-    f.count(r.file.non_manifold_vertices, warning, "non_manifold_vertices",
-            "fans of faces meet others in a vertex alone", "given a vertex of their own");
+            "face has fewer than 3 different vertices or names",
+            "faces have fewer than 3 different vertices or name", "one twice", "dropped");
+    f.count(r.file.duplicate_faces, warning, "duplicate_faces", "face has", "faces have",
+            "the same vertices as another", "dropped");
+    f.count(r.file.isolated_vertices, note, "isolated_vertices", "vertex belongs",
+            "vertices belong", "to no face", "dropped");
+    f.count(r.file.non_manifold_edges, warning, "non_manifold_edges", "edge borders",
+            "edges border", "more than two faces", "taken apart in pairs");
+    f.count(r.file.non_manifold_vertices, warning, "non_manifold_vertices", "fan of faces meets",
+            "fans of faces meet", "others in a vertex alone", "given a vertex of their own");
     f.count(r.file.flipped_faces + r.joined.flipped_faces, warning, "flipped_faces",
-            "faces are turned against their neighbours", "turned over");
+            "face is turned against its", "faces are turned against their", "neighbours",
+            "turned over");
     f.count(r.file.unorientable_edges + r.joined.unorientable_edges, warning, "unorientable_edges",
-            "edges lie on a surface that has one side only", "cut open");
-    f.count(r.joined.non_manifold_edges, note, "layered_seams",
-            "edges join more than two layers of cloth", "layers joined in pairs");
+            "edge lies", "edges lie", "on a surface that has one side only", "cut open");
+    f.count(r.joined.non_manifold_edges, note, "layered_seams", "edge joins", "edges join",
+            "more than two layers of cloth", "layers joined in pairs");
     f.count(r.file.detached_faces + r.joined.detached_faces, warning, "detached_faces",
-            "faces could not be kept with their neighbours", "cut off");
+            "face could not be kept with its", "faces could not be kept with their", "neighbours",
+            "cut off");
     f.count(r.joined.duplicate_faces + r.joined.degenerate_faces, note, "collapsed_faces",
-            "faces lost their area when seams were joined", "dropped");
+            "face lost its", "faces lost their", "area when seams were joined", "dropped");
 }
 
 void find_seams(const Report &r, Findings &f) {
-    f.count(r.seams.joined, Severity::note, "joined_vertices",
-            "boundary vertices lie at another panel's (largest gap " +
-                number(1e3 * r.seams.largest_gap) + " mm)",
+    f.count(r.seams.joined, Severity::note, "joined_vertices", "boundary vertex lies",
+            "boundary vertices lie",
+            "at another panel's (largest gap " + number(1e3 * r.seams.largest_gap) + " mm)",
             "joined");
-    f.count(r.seams.splits, Severity::note, "t_junctions",
-            "boundary vertices lie on another panel's edge", "put into that edge");
-    f.count(r.seams.slits, Severity::note, "slits",
-            "gaps along seams are wider than the tolerance but narrow", "closed");
+    f.count(r.seams.splits, Severity::note, "t_junctions", "boundary vertex lies",
+            "boundary vertices lie", "on another panel's edge", "put into that edge");
+    f.count(r.seams.slits, Severity::note, "slits", "gap along a seam is", "gaps along seams are",
+            "wider than the tolerance but narrow", "closed");
     f.count(r.seams.collapsed_edges, Severity::note, "collapsed_edges",
-            "edges shorter than the tolerance hold a gap open", "their ends made one vertex");
-    f.count(r.seams.unresolved, Severity::warning, "unresolved_seams",
-            "boundary vertices lie near another boundary and could not be joined",
+            "edge shorter than the tolerance holds", "edges shorter than the tolerance hold",
+            "a gap open", "their ends made one vertex");
+    f.count(r.seams.unresolved, Severity::warning, "unresolved_seams", "boundary vertex lies",
+            "boundary vertices lie", "near another boundary and could not be joined",
             "look at the seam, or state another tolerance of sewing");
     double length = 0.0;
     for (const BoundaryLoop &loop : r.openings)
         length += loop.length;
-    f.count(r.openings.size(), Severity::note, "openings",
-            "openings with " + number(length) + " m of edge",
-            "left open; the edge becomes a smooth curve");
+    f.count(r.openings.size(), Severity::note, "openings", "opening with", "openings with",
+            number(length) + " m of edge", "left open; the edge becomes a smooth curve");
 }
 
 /// Cloth shears a lot before it buckles, but hardly beyond this.
@@ -144,15 +149,16 @@ void find_uv(const Report &r, Findings &f) {
               "no yarn directions unless a grain is stated");
         return;
     }
-    f.count(r.faces_without_uv, Severity::warning, "faces_without_uv", "faces have no UV",
-            "directions spread from their neighbours");
-    f.count(r.faces_without_uv_area, Severity::warning, "faces_without_uv_area",
-            "faces have UVs without area", "directions spread from their neighbours");
-    f.count(r.mirrored_islands, Severity::note, "mirrored_islands", "UV islands are mirrored",
-            "warp kept, weft turned round");
+    f.count(r.faces_without_uv, Severity::warning, "faces_without_uv", "face has", "faces have",
+            "no UV", "directions spread from their neighbours");
+    f.count(r.faces_without_uv_area, Severity::warning, "faces_without_uv_area", "face has",
+            "faces have", "UVs without area", "directions spread from their neighbours");
+    f.count(r.mirrored_islands, Severity::note, "mirrored_islands", "UV island is",
+            "UV islands are", "mirrored", "warp kept, weft turned round");
     if (r.mirrored_islands == 0)
         f.count(r.mirrored_faces, Severity::warning, "mirrored_faces",
-                "faces are mirrored inside their UV island", "warp kept, weft turned round");
+                "face is mirrored inside its", "faces are mirrored inside their", "UV island",
+                "warp kept, weft turned round");
     const double shear = r.metres_per_uv_weft.p50 / r.metres_per_uv_warp.p50;
     if (std::isfinite(shear) && (shear > 1.25 || shear < 0.8))
         f.add(Severity::warning, "uneven_uv_scale",

@@ -6,13 +6,12 @@
 #include <span>
 #include <string_view>
 
-#include "tsuya/sdk/detail/checkpoint.h"
 #include "tsuya/sdk/detail/hasher.h"
 
 namespace tsuya::lab {
 namespace {
 
-constexpr std::string_view kKind = "goniometer 2"; // of checkpoints: name and version of the layout
+constexpr std::string_view kKind = "goniometer 3"; // of checkpoints: name and version of the layout
 
 // All that a checkpoint has of a light, in its order.
 template <class Light, class Visit> void each_number(Light &light, Visit visit) {
@@ -43,8 +42,8 @@ double LightSums::relative_error() const {
     return values > 0 ? errors / values : std::numeric_limits<double>::infinity();
 }
 
-std::uint64_t fingerprint(const FilamentRepeat &repeat, const Directions &directions,
-                          const GoniometerSettings &settings) {
+tsuya::detail::Fingerprint fingerprint(const FilamentRepeat &repeat, const Directions &directions,
+                                       const GoniometerSettings &settings) {
     tsuya::detail::Hasher h;
     h.value(repeat.size);
     for (const Filament &f : repeat.filaments) {
@@ -62,16 +61,17 @@ std::uint64_t fingerprint(const FilamentRepeat &repeat, const Directions &direct
     for (const DirectionPair &p : directions.pairs)
         for (const double v : {p.theta_i, p.phi_i, p.theta_r, p.phi_r})
             h.value(v);
-    h.value(settings.seed);
-    h.value(settings.part);
-    h.value(settings.max_bounces);
-    h.value(settings.energy_bound);
-    h.value(settings.turn_per_segment);
-    h.value(settings.section_points);
-    return h.result();
+    tsuya::detail::Hasher s;
+    s.value(settings.seed);
+    s.value(settings.part);
+    s.value(settings.max_bounces);
+    s.value(settings.energy_bound);
+    s.value(settings.turn_per_segment);
+    s.value(settings.section_points);
+    return {.input = h.result(), .settings = s.result()};
 }
 
-void save_sums(const std::vector<LightSums> &lights, std::uint64_t fingerprint,
+void save_sums(const std::vector<LightSums> &lights, const tsuya::detail::Fingerprint &fingerprint,
                const std::filesystem::path &file) {
     tsuya::detail::CheckpointWriter writer(file, kKind, fingerprint);
     for (const LightSums &light : lights) {
@@ -82,7 +82,7 @@ void save_sums(const std::vector<LightSums> &lights, std::uint64_t fingerprint,
     writer.commit();
 }
 
-void load_sums(std::vector<LightSums> &lights, std::uint64_t fingerprint,
+void load_sums(std::vector<LightSums> &lights, const tsuya::detail::Fingerprint &fingerprint,
                const std::filesystem::path &file) {
     tsuya::detail::CheckpointReader reader(file, kKind, fingerprint);
     for (LightSums &light : lights) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "photon_walk.h"
+#include "tsuya/sdk/detail/checkpoint.h"
 
 namespace tsuya::lab {
 
@@ -25,14 +26,15 @@ struct Estimate {
 };
 Estimate estimate(double sum, double sum_of_squares, std::uint64_t photons);
 
-// What must be the same for a measurement to go on: a hash of repeat, directions and settings.
-std::uint64_t fingerprint(const FilamentRepeat &repeat, const Directions &directions,
-                          const GoniometerSettings &settings);
+// What must be the same for a measurement to go on: hashes of repeat and directions, and of
+// settings.
+tsuya::detail::Fingerprint fingerprint(const FilamentRepeat &repeat, const Directions &directions,
+                                       const GoniometerSettings &settings);
 
-void save_sums(const std::vector<LightSums> &lights, std::uint64_t fingerprint,
+void save_sums(const std::vector<LightSums> &lights, const tsuya::detail::Fingerprint &fingerprint,
                const std::filesystem::path &file);
-// Throws Error naming the file: not a checkpoint, cut off, or of another measurement.
-void load_sums(std::vector<LightSums> &lights, std::uint64_t fingerprint,
+// Throws Error naming the file: not a checkpoint, damaged, or of another measurement.
+void load_sums(std::vector<LightSums> &lights, const tsuya::detail::Fingerprint &fingerprint,
                const std::filesystem::path &file);
 
 } // namespace tsuya::lab

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -16,7 +17,7 @@ constexpr double kRounding = 1.0 / 12; // variance of a whole number, DN^2
 
 void need_size(std::size_t size, std::size_t expected, const char *where) {
     if (size != expected)
-        throw Error({"a frame has " + std::to_string(size) + " pixels", where,
+        throw Error({"a frame has " + detail::counted(size, "pixel"), where,
                      "expected " + std::to_string(expected) + ", as in the first"});
 }
 

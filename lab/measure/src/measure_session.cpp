@@ -22,7 +22,7 @@ constexpr double kSureContrast = 1e-3;  // squared; below, there is nothing to b
 constexpr double kWidestBlur = 1.0 / 3; // of the narrowest lobe
 
 constexpr const char *kNoFlicker =
-    "the lamp's flicker cannot be told, and is in no error: that takes three white frames of one "
+    "the lamp's flicker is not known, and is in no error: that takes three white frames of one "
     "light or more";
 
 constexpr const char *kNoFlat =

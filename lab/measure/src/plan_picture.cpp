@@ -5,6 +5,7 @@
 #include "hemisphere_picture.h"
 #include "left_out_marks.h"
 #include "tsuya/lab/number_text.h"
+#include "tsuya/sdk/detail/counted.h"
 
 namespace tsuya::lab {
 namespace {
@@ -34,12 +35,12 @@ std::string plan_picture(const Plan &plan) {
     for (const PlannedFrame &view : views)
         ++counts[view.kind];
     HemispherePicture picture{
-        .title = plan.views + ": " + std::to_string(counts[FrameKind::cloth]) + " views, " +
-                 std::to_string(plan.frames.size()) + " frames",
+        .title = plan.views + ": " + detail::counted(counts[FrameKind::cloth], "view") + ", " +
+                 detail::counted(plan.frames.size(), "frame"),
         .key = {{MarkShape::dot, scale_colour(0.4), "view of the cloth"},
                 {MarkShape::square, kWhite,
-                 "white standard, seen " + std::to_string(counts[FrameKind::white]) +
-                     " times, and black trap"}},
+                 "white standard, seen " + detail::counted(counts[FrameKind::white], "time") +
+                     ", and black trap"}},
         .scale = ColourScale{.low = "first", .high = "last", .words = "order"},
         .joined = true};
     add_left_out(plan, picture);

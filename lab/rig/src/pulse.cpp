@@ -2,6 +2,7 @@
 
 #include "pulse_report.h"
 #include "tsuya/lab/off_guard.h"
+#include "tsuya/sdk/detail/counted.h"
 
 #include <algorithm>
 #include <exception>
@@ -10,10 +11,6 @@ namespace tsuya::lab {
 namespace {
 
 using std::chrono::nanoseconds;
-
-constexpr int kMaxCount = 1'000'000;
-constexpr nanoseconds kMaxPeriod = std::chrono::hours(1);
-constexpr nanoseconds kMaxWarmUp = std::chrono::hours(24);
 
 std::string in_ms(nanoseconds duration) {
     return std::to_string(std::chrono::duration<double, std::milli>(duration).count()) + " ms";
@@ -130,7 +127,8 @@ void summarize(const PulseTrain &train, PulseReport &report) {
 
 std::string stopped_after(const PulseReport &done, const PulseTrain &train) {
     return "stopped after " + std::to_string(done.pulses.size()) + " of " +
-           std::to_string(train.count) + " pulses; the lamp is off and the shutter closed";
+           detail::counted(static_cast<std::size_t>(train.count), "pulse") +
+           "; the lamp is off and the shutter closed";
 }
 
 nanoseconds default_tolerance(nanoseconds width) {
@@ -147,11 +145,11 @@ void check_pulse_train(const PulseTrain &train, const std::string &where) {
         problems.need(good, "it is " + value, prefix + field, "expected " + accepted);
     };
     require(train.width > nanoseconds(0), "width", in_ms(train.width), "more than 0 ms");
-    require(train.period > train.width && train.period <= kMaxPeriod, "period", in_ms(train.period),
-            "more than the width of " + in_ms(train.width) + ", at most 1 h");
-    require(train.count >= 1 && train.count <= kMaxCount, "count", std::to_string(train.count),
-            "1 to " + std::to_string(kMaxCount));
-    require(train.warm_up >= nanoseconds(0) && train.warm_up <= kMaxWarmUp, "warm_up",
+    require(train.period > train.width && train.period <= kLongestPeriod, "period",
+            in_ms(train.period), "more than the width of " + in_ms(train.width) + ", at most 1 h");
+    require(train.count >= 1 && train.count <= kMostPulses, "count", std::to_string(train.count),
+            "1 to " + std::to_string(kMostPulses));
+    require(train.warm_up >= nanoseconds(0) && train.warm_up <= kLongestWarmUp, "warm_up",
             in_ms(train.warm_up), "0 to 24 h");
     if (train.tolerance)
         require(*train.tolerance > nanoseconds(0), "tolerance", in_ms(*train.tolerance),

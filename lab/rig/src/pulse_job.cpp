@@ -9,9 +9,8 @@
 #include <optional>
 
 namespace tsuya::lab {
-namespace {
 
-void check_lines(const PulseJob &job) {
+void check_pulse_lines(const PulseJob &job) {
     Problems problems;
     const std::string accepted = "a line's name or offset";
     problems.need(!job.shutter.line.empty(), "the line has an empty name", "shutter", accepted);
@@ -24,6 +23,8 @@ void check_lines(const PulseJob &job) {
     }
     problems.throw_if_any();
 }
+
+namespace {
 
 PulseReport run_on_real_lines(const PulseJob &job, const Progress &progress) {
     std::vector<NamedGpioLine> lines{{"shutter", job.shutter}};
@@ -42,7 +43,7 @@ PulseReport run_on_real_lines(const PulseJob &job, const Progress &progress) {
 
 PulseReport run_pulse_job(const PulseJob &job, const Progress &progress) {
     check_pulse_train(job.train);
-    check_lines(job);
+    check_pulse_lines(job);
     if (job.simulate) {
         VirtualClock clock;
         SimulatedLine shutter(job.shutter.line, clock);

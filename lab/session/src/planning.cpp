@@ -117,7 +117,35 @@ class Planner {
     std::size_t view_ = 0;
 };
 
+constexpr std::string_view kFew = "few:";
+
+/// Degrees of `few:STEP`. Throws Error for a step out of range.
+double step_of(const std::string &name) {
+    double step_deg = 0;
+    const char *const end = name.data() + name.size();
+    const auto [rest, code] = std::from_chars(name.data() + kFew.size(), end, step_deg);
+    if (code != std::errc() || rest != end ||
+        !(step_deg >= kFinestStep_deg && step_deg <= kCoarsestStep_deg))
+        throw Error({"'" + name + "' is no set of views", "views",
+                     "expected few: and a step of 0.5 to 90 degrees, such as few:5"});
+    return step_deg;
+}
+
+void need_file(const std::string &name) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(name, ignored))
+        throw Error({"'" + name + "' is no set of views, and no file", "views",
+                     "expected few:STEP such as few:5, paper, or a table of reflectance"});
+}
+
 } // namespace
+
+void check_views_name(const std::string &name) {
+    if (name.starts_with(kFew))
+        step_of(name);
+    else if (name != "paper" && !std::filesystem::path(name).has_extension())
+        need_file(name);
+}
 
 Directions views_named(const std::string &name, std::optional<Symmetry> symmetry) {
     if (name == "paper") {
@@ -125,23 +153,13 @@ Directions views_named(const std::string &name, std::optional<Symmetry> symmetry
         directions.symmetry = symmetry.value_or(Symmetry::none);
         return directions;
     }
-    if (!name.starts_with("few:")) {
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(name, ignored))
-            throw Error({"'" + name + "' is no set of views, and no file", "views",
-                         "expected few:STEP such as few:5, paper, or a table of reflectance"});
+    if (!name.starts_with(kFew)) {
+        need_file(name);
         Directions directions = directions_of(read_reflectance_table(name));
         directions.symmetry = symmetry.value_or(directions.symmetry);
         return directions;
     }
-    double step_deg = 0;
-    const char *const end = name.data() + name.size();
-    const auto [rest, code] = std::from_chars(name.data() + 4, end, step_deg);
-    if (code != std::errc() || rest != end ||
-        !(step_deg >= kFinestStep_deg && step_deg <= kCoarsestStep_deg))
-        throw Error({"'" + name + "' is no set of views", "views",
-                     "expected few: and a step of 0.5 to 90 degrees, such as few:5"});
-    return normal_incidence(step_deg, symmetry.value_or(Symmetry::half_turn));
+    return normal_incidence(step_of(name), symmetry.value_or(Symmetry::half_turn));
 }
 
 Plan make_plan(const RigFile &rig, const PlanRequest &request) {

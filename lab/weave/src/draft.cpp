@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -81,13 +82,16 @@ std::size_t reached_yarns(const Draft &draft, bool above) {
     return count;
 }
 
+std::string counted_ends(int ends) {
+    return tsuya::detail::counted(static_cast<std::size_t>(std::max(ends, 0)), "end");
+}
+
 } // namespace
 
 Draft satin(int ends, int step) {
     if (ends < 5 || ends > kMaxDraft || step < 2 || step > ends - 2 || std::gcd(ends, step) != 1)
         throw Error(
-            {"a satin of " + std::to_string(ends) + " ends has no step " + std::to_string(step),
-             "draft",
+            {"a satin of " + counted_ends(ends) + " has no step " + std::to_string(step), "draft",
              "expected at least 5 ends and a step from 2 to ends - 2 that shares no divisor "
              "with them"});
     return draft_of(ends, ends, [=](int e, int p) { return e != step * p % ends; });
@@ -136,8 +140,8 @@ void check_draft(const Draft &draft, const std::string &where) {
         throw Error({std::move(what), where, std::move(accepted)});
     };
     if (std::min(draft.ends, draft.picks) < 2 || std::max(draft.ends, draft.picks) > kMaxDraft)
-        fail("a repeat of " + std::to_string(draft.ends) + " ends and " +
-                 std::to_string(draft.picks) + " picks",
+        fail("a repeat of " + counted_ends(draft.ends) + " and " +
+                 tsuya::detail::counted(static_cast<std::size_t>(std::max(draft.picks, 0)), "pick"),
              "expected 2 to " + std::to_string(kMaxDraft) + " of each");
     if (draft.warp_up.size() !=
         static_cast<std::size_t>(draft.ends) * static_cast<std::size_t>(draft.picks))

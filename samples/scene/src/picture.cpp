@@ -1,12 +1,29 @@
 #include "tsuya/scene/picture.h"
 
 #include <algorithm>
+#include <set>
 
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/relight.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
+namespace {
+
+/// `LAMP`, for all groups, or `GROUP=LAMP`.
+struct GroupLamp {
+    std::string group{}; ///< empty: all
+    std::string lamp{};
+};
+
+GroupLamp split_spec(const std::string &spec) {
+    const std::size_t equals = spec.find('=');
+    if (equals == std::string::npos)
+        return {.lamp = spec};
+    return {spec.substr(0, equals), spec.substr(equals + 1)};
+}
+
+} // namespace
 
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
                     const DisplayOptions &look) {
@@ -25,44 +42,58 @@ std::string file_stem_of(const std::string &spec) {
     return stem;
 }
 
-std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
-                                   const std::filesystem::path &folder) {
+void check_lamps(std::span<const std::string> specs) {
     if (specs.empty())
         throw Error({"no lamp is named", "lamps", "expected such as D65,A"});
-    std::vector<NamedLamp> lamps;
+    std::set<std::string> names;
     for (const std::string &spec : specs) {
-        NamedLamp lamp{file_stem_of(spec), parse_lamp(spec, folder)};
-        if (std::any_of(lamps.begin(), lamps.end(),
-                        [&](const NamedLamp &other) { return other.name == lamp.name; }))
-            throw Error({"two lamps have the name '" + lamp.name + "', the last is " + spec,
-                         "lamps", "expected each lamp once, and files of different names"});
-        lamps.push_back(std::move(lamp));
+        check_lamp_spec(spec);
+        if (const std::string name = file_stem_of(spec); !names.insert(name).second)
+            throw Error({"two lamps have the name '" + name + "', the last is " + spec, "lamps",
+                         "expected each lamp once, and files of different names"});
     }
+}
+
+std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
+                                   const std::filesystem::path &folder) {
+    check_lamps(specs);
+    std::vector<NamedLamp> lamps;
+    for (const std::string &spec : specs)
+        lamps.push_back({file_stem_of(spec), parse_lamp(spec, folder)});
     return lamps;
+}
+
+void check_group_lamps(std::span<const std::string> specs) {
+    std::set<std::string> groups;
+    for (const std::string &spec : specs) {
+        const GroupLamp one = split_spec(spec);
+        if (spec.starts_with('='))
+            throw Error(
+                {"'" + spec + "' names no light group", "lamp", "expected LAMP or GROUP=LAMP"});
+        check_lamp_spec(one.lamp);
+        if (!groups.insert(one.group).second)
+            throw Error({"two lamps for " + (one.group.empty() ? std::string("all light groups")
+                                                               : "group '" + one.group + "'"),
+                         "lamp", "expected one; GROUP=LAMP names a group"});
+    }
 }
 
 std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
                                          std::span<const std::string> groups,
                                          const std::filesystem::path &folder) {
+    check_group_lamps(specs);
     std::vector<std::string> chosen(groups.size());
     std::string rest;
     for (const std::string &spec : specs) {
-        const std::size_t equals = spec.find('=');
-        std::string *slot = &rest;
-        if (equals != std::string::npos) {
-            const std::string name = spec.substr(0, equals);
-            const auto group = std::find(groups.begin(), groups.end(), name);
-            if (group == groups.end())
-                throw Error(
-                    {"no light group '" + name + "'", "lamp", accepted_names(name, groups)});
-            slot = &chosen[static_cast<std::size_t>(group - groups.begin())];
-        }
-        if (!slot->empty())
+        const GroupLamp one = split_spec(spec);
+        const auto group = std::find(groups.begin(), groups.end(), one.group);
+        if (one.group.empty())
+            rest = one.lamp;
+        else if (group == groups.end())
             throw Error(
-                {"two lamps for " + (slot == &rest ? std::string("all light groups")
-                                                   : "group '" + spec.substr(0, equals) + "'"),
-                 "lamp", "expected one; GROUP=LAMP names a group"});
-        *slot = equals == std::string::npos ? spec : spec.substr(equals + 1);
+                {"no light group '" + one.group + "'", "lamp", accepted_names(one.group, groups)});
+        else
+            chosen[static_cast<std::size_t>(group - groups.begin())] = one.lamp;
     }
     std::vector<NamedLamp> lamps;
     for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -1,5 +1,7 @@
 #include "tsuya/scene/scene_file.h"
 
+#include <map>
+
 #include "scene_meshes.h"
 #include "scene_reader.h"
 #include "tsuya/sdk/error.h"
@@ -11,6 +13,40 @@ void add_object(Scene &scene, const std::string &name, Surface surface, std::siz
     const auto index = static_cast<std::uint32_t>(scene.surfaces.size());
     scene.surfaces.push_back(std::move(surface));
     scene.objects.push_back({name, {index}, {static_cast<std::uint32_t>(fabric)}});
+}
+
+/// Where the file has the parts of its scene: `a.scene.toml:9:1: lights.key` for `rectangles[0]`.
+std::map<std::string, std::string> places_of(const SceneFile &file) {
+    std::map<std::string, std::string> places;
+    std::size_t objects = 0;
+    const auto object = [&](const std::string &where, const std::string &key) {
+        const std::string index = "[" + std::to_string(objects++) + "]";
+        places["objects" + index] = places["surfaces" + index] = where + ": " + key;
+    };
+    for (const auto &[kind, entries] :
+         {std::pair("garments.", &file.garments), std::pair("bodies.", &file.bodies)})
+        for (const MeshEntry &entry : *entries)
+            if (entry.visible)
+                object(entry.where, kind + entry.name);
+    if (file.backdrop)
+        object(file.backdrop->where, "backdrop");
+    for (std::size_t i = 0; i < file.light_places.size(); ++i)
+        places["rectangles[" + std::to_string(i) + "]"] =
+            file.light_places[i] + ": lights." + file.lights[i].name;
+    return places;
+}
+
+/// The problems of check_scene with the places and names of the file.
+Error in_words_of(const SceneFile &file, const Error &error) {
+    const std::map<std::string, std::string> places = places_of(file);
+    std::vector<Problem> problems = error.problems();
+    for (Problem &problem : problems) {
+        const std::size_t end = problem.where.find(']') + 1; // 0: none
+        const auto place = places.find(problem.where.substr(0, end));
+        if (place != places.end())
+            problem.where = place->second + problem.where.substr(end);
+    }
+    return Error(std::move(problems)).within(file.path.string());
 }
 
 // Only models that carry views ask for f0; `ggx` and `lambert` do without.
@@ -99,7 +135,7 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
     try {
         check_scene(scene);
     } catch (const Error &error) {
-        throw error.within(file.path.string());
+        throw in_words_of(file, error);
     }
     meshes.refine(scene);
     for (std::size_t m = 0; m < built.reports.size(); ++m)

@@ -165,7 +165,8 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
     for (const FabricEntry &fabric : file_.fabrics)
         fabrics.push_back(fabric.name);
     for (const auto &[name, section] : meshes->sections()) {
-        MeshEntry entry{.name = name, .mesh = existing_file(section, "mesh", true)};
+        MeshEntry entry{
+            .name = name, .where = section.where(), .mesh = existing_file(section, "mesh", true)};
         const std::string fabric = section.required_text("fabric");
         const auto found = std::find(fabrics.begin(), fabrics.end(), fabric);
         entry.fabric = static_cast<std::size_t>(found - fabrics.begin());
@@ -223,7 +224,7 @@ void SceneReader::read_backdrop() {
     const auto section = root_.section("backdrop");
     if (!section)
         return;
-    BackdropEntry entry;
+    BackdropEntry entry{.where = section->where()};
     Cyclorama &shape = entry.shape;
     shape.centre = section->vector("centre").value_or(shape.centre);
     // Faces the camera unless it is told otherwise
@@ -272,6 +273,8 @@ void SceneReader::read_light(const std::string &name, const Section &section) {
         section.problem("radiance", "radiance and strength are both given", "expected one of them");
     note(section, "centre", [&] {
         file_.lights.push_back(make_light(box));
+        file_.lights.back().name = name;
+        file_.light_places.push_back(section.where());
         if (radiance)
             file_.lights.back().radiance = *radiance;
     });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "scene_meshes.h"
 #include "tsuya/color/dye.h"
@@ -39,15 +40,10 @@ struct NamedDye {
 std::vector<NamedDye> parse_dyes(const TryOn &job) {
     if (job.dyes.empty())
         return {{job.fabric.stem().stem().string(), std::nullopt}};
+    check_dyes(job.dyes);
     std::vector<NamedDye> dyes;
-    for (const std::string &spec : job.dyes) {
-        NamedDye dye{file_stem_of(spec), parse_dye(spec)};
-        if (std::any_of(dyes.begin(), dyes.end(),
-                        [&](const NamedDye &other) { return other.name == dye.name; }))
-            throw Error({"two dyes have the name '" + dye.name + "', the last is " + spec, "dye",
-                         "expected each dye once, and files of different names"});
-        dyes.push_back(std::move(dye));
-    }
+    for (const std::string &spec : job.dyes)
+        dyes.push_back({file_stem_of(spec), parse_dye(spec)});
     return dyes;
 }
 
@@ -81,6 +77,7 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
          .height = 0.3 * size,
          .strength = kKeyStrength,
          .group = {0}})};
+    scene.rectangles.back().name = scene.light_groups.front();
     scene.environment = Environment{.radiance = kFillRadiance, .group = {1}, .visible = true};
     add_object(scene, "backdrop",
                make_cyclorama({.centre = {middle.x, bounds.lower.y, middle.z},
@@ -216,6 +213,16 @@ void add_warnings(const RenderResult &rendered, TryOnResult &result) {
 }
 
 } // namespace
+
+void check_dyes(const std::vector<std::string> &specs) {
+    std::set<std::string> names;
+    for (const std::string &spec : specs) {
+        check_dye_spec(spec);
+        if (const std::string name = file_stem_of(spec); !names.insert(name).second)
+            throw Error({"two dyes have the name '" + name + "', the last is " + spec, "dye",
+                         "expected each dye once, and files of different names"});
+    }
+}
 
 TryOn sample_try_on(const fs::path &data) {
     return {.garment = data / "dress" / "dress.obj",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tsuya/sdk/detail/checkpoint.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya {
@@ -65,7 +66,7 @@ struct Film {
     TileError tile_error(std::size_t tile) const;
 };
 
-// What must be the same for a render to go on: a hash of scene and settings.
-std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings);
+// What must be the same for a render to go on: hashes of scene and settings.
+detail::Fingerprint fingerprint(const Scene &scene, const RenderSettings &settings);
 
 } // namespace tsuya

@@ -7,7 +7,7 @@
 namespace tsuya {
 namespace {
 
-constexpr const char *kKind = "render 2";
+constexpr const char *kKind = "render 3";
 
 // What is kept of a film, in order: for the writer (a constant film) and the reader.
 template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
@@ -23,14 +23,15 @@ template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
 
 } // namespace
 
-void save_checkpoint(const Film &film, std::uint64_t fingerprint,
+void save_checkpoint(const Film &film, const detail::Fingerprint &fingerprint,
                      const std::filesystem::path &file) {
     detail::CheckpointWriter out(file, kKind, fingerprint);
     each_part(out, film);
     out.commit();
 }
 
-void load_checkpoint(Film &film, std::uint64_t fingerprint, const std::filesystem::path &file) {
+void load_checkpoint(Film &film, const detail::Fingerprint &fingerprint,
+                     const std::filesystem::path &file) {
     detail::CheckpointReader in(file, kKind, fingerprint);
     each_part(in, film);
     in.finish();

@@ -38,7 +38,7 @@ class FilmKeeper {
     const RenderSettings &settings_;
     Film &film_;
     std::function<RenderResult()> result_;
-    std::uint64_t fingerprint_ = 0;
+    detail::Fingerprint fingerprint_{};
     std::uint64_t saved_samples_ = 0; // of the film in the file
     Clock::time_point last_save_ = Clock::now();
     std::optional<Problem> problem_{};

@@ -3,11 +3,11 @@
 
 namespace tsuya {
 
-std::uint64_t fingerprint(const Scene &scene, const RenderSettings &settings) {
-    detail::FieldHasher hasher;
-    hasher.add(scene);
-    hasher.add(settings);
-    return hasher.result();
+detail::Fingerprint fingerprint(const Scene &scene, const RenderSettings &settings) {
+    detail::FieldHasher of_scene, of_settings;
+    of_scene.add(scene);
+    of_settings.add(settings);
+    return {.input = of_scene.result(), .settings = of_settings.result()};
 }
 
 } // namespace tsuya

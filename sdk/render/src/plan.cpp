@@ -1,8 +1,17 @@
 #include "tsuya/sdk/plan.h"
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya {
+namespace {
+
+std::string name_of(const Scene &scene, std::size_t light) {
+    const std::string &name = scene.rectangles[light].name;
+    return name.empty() ? "rectangles[" + std::to_string(light) + "]" : "'" + name + "'";
+}
+
+} // namespace
 
 Plan plan(const Scene &scene, const RenderSettings &settings) {
     Plan p;
@@ -36,8 +45,8 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
         skip(!scatters, "nothing scatters light", "all bounces and shadow rays"))
         p.max_bounces = 0;
     for (std::size_t i = 0; i < scene.rectangles.size(); ++i)
-        if (!skip(scene.rectangles[i].radiance == 0,
-                  "light rectangles[" + std::to_string(i) + "] is dark", "its shadow rays"))
+        if (!skip(scene.rectangles[i].radiance == 0, "the light " + name_of(scene, i) + " is dark",
+                  "its shadow rays"))
             p.lights.push_back(i);
     p.environment = scene.environment && !skip(scene.environment->radiance == 0,
                                                "the environment is dark", "its sampling");
@@ -50,7 +59,7 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
 
 std::string explain(const Plan &p) {
     std::string text = "bounces: up to " + std::to_string(p.max_bounces) + "\n";
-    text += "lights: " + std::to_string(p.lights.size()) + " rectangles" +
+    text += "lights: " + detail::counted(p.lights.size(), "rectangle") +
             (p.environment ? ", environment" : "") + "\n";
     text += std::string("parts:") + (p.any_diffuse ? " diffuse" : "") +
             (p.any_specular ? " specular" : "") + "\n";

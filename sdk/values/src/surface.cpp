@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -14,8 +15,9 @@ bool finite(const glm::dvec3 &v) {
 void check_unit(const std::vector<glm::vec3> &directions, const Surface &surface, const char *name,
                 const std::string &where) {
     if (!directions.empty() && directions.size() != surface.position.size())
-        throw Error({std::string(name) + " has " + std::to_string(directions.size()) +
-                         " entries for " + std::to_string(surface.position.size()) + " vertices",
+        throw Error({std::string(name) + " has " +
+                         detail::counted(directions.size(), "entry", "entries") + " for " +
+                         detail::counted(surface.position.size(), "vertex", "vertices"),
                      where, "expected one a vertex"});
     for (std::size_t i = 0; i < directions.size(); ++i)
         if (!(std::abs(glm::length(directions[i]) - 1.0f) < 1e-3f))

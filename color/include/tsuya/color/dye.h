@@ -30,4 +30,7 @@ std::string dye_description(std::string_view name);
 Spectrum parse_dye(const std::string &spec, const std::filesystem::path &folder = {},
                    const std::string &where = "dye");
 
+/// Throws Error at `where` for a text that is none of the three, whatever files there are.
+void check_dye_spec(const std::string &spec, const std::string &where = "dye");
+
 } // namespace tsuya

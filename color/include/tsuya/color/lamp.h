@@ -28,4 +28,7 @@ std::string lamp_description(std::string_view name);
 /// visible power.
 Spectrum parse_lamp(const std::string &spec, const std::filesystem::path &folder = {});
 
+/// Throws Error for a text that is neither of the two, whatever files there are.
+void check_lamp_spec(const std::string &spec);
+
 } // namespace tsuya

@@ -84,7 +84,7 @@ void check_needs_yarns(const Fabric &fabric, const std::string &where, Problems 
     const FabricColours &colours = fabric.colours;
     const std::string model(model_of(fabric));
     const auto refuse = [&](bool given, const char *key, const char *accepted) {
-        problems.need(!given, "the model '" + model + "' does not tell weft and warp apart",
+        problems.need(!given, "the model '" + model + "' does not separate weft and warp",
                       where + key, accepted);
     };
     refuse(colours.weft_tint.has_value(), ".weft_tint",

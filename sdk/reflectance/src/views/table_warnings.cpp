@@ -60,7 +60,7 @@ void find_large_errors(const ReflectanceTable &table, std::vector<std::string> &
     }
     if (values > 0 && errors > values)
         found.push_back(text_of("the standard errors are ", std::sqrt(errors / values),
-                                " times the values (root mean square), which tells little; are "
+                                " times the values (root mean square), which says little; are "
                                 "they in 1/sr?"));
 }
 

@@ -28,6 +28,9 @@ struct PulseTrain {
 /// The larger of 0.5 ms and 2 % of the width.
 std::chrono::nanoseconds default_tolerance(std::chrono::nanoseconds width);
 
+inline constexpr int kMostPulses = 1'000'000;                              ///< of a train
+inline constexpr std::chrono::hours kLongestPeriod{1}, kLongestWarmUp{24}; ///< of a train
+
 /// Throws Error listing everything that is out of range.
 /// \param where put before the field's name, as in `where.width`; may be empty
 void check_pulse_train(const PulseTrain &train, const std::string &where = "");

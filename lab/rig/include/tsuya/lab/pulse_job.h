@@ -19,9 +19,12 @@ struct PulseJob {
     int library_threads = 0; ///< as of Supervision
 };
 
+/// Throws Error for an empty name of a line, and for one line as both lamp and shutter.
+void check_pulse_lines(const PulseJob &job);
+
 /// Takes the lines and runs the train, supervised where the lines are real. A job takes at least
-/// warm_up + (count - 1) * period + width. Throws what GpioLine and run_supervised_pulses throw; an
-/// empty name of a line, or one line for both lamp and shutter, is an Error.
+/// warm_up + (count - 1) * period + width. Throws what check_pulse_lines, GpioLine and
+/// run_supervised_pulses throw.
 PulseReport run_pulse_job(const PulseJob &job, const Progress &progress = {});
 
 /// run_pulses() in real time in a process of its own: lamp and shutter are driven off also when

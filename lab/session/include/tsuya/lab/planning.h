@@ -10,6 +10,10 @@
 
 namespace tsuya::lab {
 
+/// Throws Error for a name that no file could make one of views_named: a step outside 0.5 to 90
+/// degrees; a word without an extension that is neither `paper` nor a file.
+void check_views_name(const std::string &name);
+
 /// The views of `few:STEP` (light from straight above, every STEP degrees, as far as the symmetry
 /// does not repeat them; half-turn where none is given), `paper` (the set of [Takeda]; no symmetry
 /// where none is given) or a table's file (its own symmetry where none is given). Throws Error for

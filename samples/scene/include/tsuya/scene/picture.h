@@ -28,12 +28,19 @@ Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> l
 std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
                                    const std::filesystem::path &folder = {});
 
+/// Throws Error for names that parse_lamps refuses whatever files there are.
+void check_lamps(std::span<const std::string> specs);
+
 /// The lamp of each light group of `groups`, from specs that are either `LAMP`, for every group
 /// that is not named, or `GROUP=LAMP`. Throws Error for an unknown group, with the known ones, a
 /// group without a lamp, two lamps for one group, and as parse_lamp.
 std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
                                          std::span<const std::string> groups,
                                          const std::filesystem::path &folder = {});
+
+/// Throws Error for specs that parse_group_lamps refuses whatever the groups and files: an unknown
+/// lamp, two lamps for one group.
+void check_group_lamps(std::span<const std::string> specs);
 
 /// What to write under a picture: the lamp's name, and for a named lamp its correlated colour
 /// temperature in words.

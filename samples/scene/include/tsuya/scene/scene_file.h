@@ -38,6 +38,7 @@ struct FabricEntry {
 /// `[garments.NAME]` or `[bodies.NAME]`. Bodies have no yarn directions.
 struct MeshEntry {
     std::string name{};
+    std::string where{}; ///< file:line:column
     std::filesystem::path mesh{};
     std::size_t fabric = 0; ///< into SceneFile::fabrics
     garment::Options options{};
@@ -48,6 +49,7 @@ struct MeshEntry {
 
 /// `[backdrop]`
 struct BackdropEntry {
+    std::string where{}; ///< file:line:column
     Cyclorama shape{};
     Spectrum reflectance = Spectrum::constant(0.18);
 };
@@ -70,6 +72,7 @@ struct SceneFile {
     std::optional<BackdropEntry> backdrop{};
     std::vector<std::string> light_groups{};
     std::vector<RectangleLight> lights{};
+    std::vector<std::string> light_places{}; ///< file:line:column of each light
     std::optional<Environment> environment{};
     RenderSettings render{};
     OutputEntry output{};
@@ -95,7 +98,8 @@ struct BuiltScene {
 
 /// Loads the meshes and puts the scene together. A camera that frames by itself frames meshes with
 /// `tolerance_px` as level 1 divides them. Throws Error as garment::load, read_fabric and
-/// check_scene; Interrupted where `progress` says stop.
+/// check_scene, whose objects and lights are named as in the file; Interrupted where `progress`
+/// says stop.
 BuiltScene build_scene(const SceneFile &file, const Progress &progress = {});
 
 } // namespace tsuya::scene

@@ -25,6 +25,10 @@ namespace tsuya::scene {
 /// of each part of it, as a share of its value, and the most samples that a pixel may take.
 inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.035};
 
+/// Throws Error for dyes that a try-on refuses whatever files there are: an unknown name, two of
+/// one name.
+void check_dyes(const std::vector<std::string> &specs);
+
 /// What is tried on and how it is shown.
 struct TryOn {
     std::filesystem::path garment{}; ///< a mesh with the UV of its panels

@@ -45,6 +45,7 @@ struct Object {
 /// A rectangle that shines to the side of cross(edge_u, edge_v). Radiance is relative to the
 /// group's lamp: a perfect white diffuser that receives irradiance pi has T = 1.
 struct RectangleLight {
+    std::string name{}; ///< for messages
     glm::dvec3 corner{0, 2, 2};
     glm::dvec3 edge_u{1, 0, 0}, edge_v{0, 1, 0}; ///< metres
     double radiance = 1.0;                       ///< 0 to kLargestRadiance

@@ -36,7 +36,8 @@ template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &objec
 }
 
 template <class F, detail::MaybeConst<RectangleLight> T> void each_field(F &&f, T &light) {
-    auto &[corner, edge_u, edge_v, radiance, group] = light;
+    auto &[name, corner, edge_u, edge_v, radiance, group] = light;
+    f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"corner"}, corner);
     f(detail::Field{"edge_u"}, edge_u);
     f(detail::Field{"edge_v"}, edge_v);

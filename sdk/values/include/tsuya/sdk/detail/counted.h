@@ -7,10 +7,15 @@
 
 namespace tsuya::detail {
 
+/// `1 vertex lies`, `3 vertices lie`.
+inline std::string counted(std::size_t n, const std::string &one, const std::string &many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
 /// `1 value`, `3 values`.
 /// \param what one of them, a noun whose plural ends in s
 inline std::string counted(std::size_t n, const std::string &what) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    return counted(n, what, what + "s");
 }
 
 } // namespace tsuya::detail

@@ -35,14 +35,15 @@ class Hasher {
         for (const T &v : values)
             value(v);
     }
-    std::uint64_t result() const { return state_; }
-
-  private:
+    /// Bytes as they lie in memory, without their count.
     void bytes(const void *data, std::size_t size) {
         const auto *byte = static_cast<const unsigned char *>(data);
         for (std::size_t i = 0; i < size; ++i)
             state_ = (state_ ^ byte[i]) * 1099511628211ull;
     }
+    std::uint64_t result() const { return state_; }
+
+  private:
     std::uint64_t state_ = 14695981039346656037ull;
 };
 
