@@ -81,21 +81,16 @@ Plain without_tables(const GgxBrdf &) { return {}; }
 Plain without_tables(const LambertBrdf &) { return {}; }
 Plain without_tables(const TabulatedBrdf &) { return {}; }
 Plain without_tables(const YarnBrdf &model) {
-    return [lobes = model.lobes(), optics = YarnOptics(model.lobes().f0)](const glm::vec3 &view) {
+    return [lobes = model.lobes(),
+            optics = YarnOptics(model.lobes().f0, model.lobes().roughness)](const glm::vec3 &view) {
         const glm::vec3 up(0, 0, 1);
         const YarnHalf half = optics.half(up, view);
-        double sum = lobes.even / std::numbers::pi;
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            const auto pit = static_cast<float>(lobes.pit[axis]);
-            const YarnReach reach = axis == 0 ? optics.reach<0>(pit, half, up, view)
-                                              : optics.reach<1>(pit, half, up, view);
-            double facets = 0;
-            for (int k = 0; k < kYarnSlopes; ++k)
-                facets +=
-                    lobes.surface[axis][static_cast<std::size_t>(k)] *
-                    yarn_lobe(static_cast<int>(axis), yarn_slope(k), lobes.roughness, half.half);
-            sum += facets * reach.times_cosine(1 / view.z, 1 / view.z);
-        }
+        double sum = lobes.even / std::numbers::pi +
+                     lobes.loose * half.fresnel / (2 * std::numbers::pi * (1 + view.z));
+        const glm::vec2 seen =
+            optics.reach(half, up, view) * YarnDepth(lobes).in_sight(half.half, YarnSpan(up, view));
+        for (int axis = 0; axis < 2; ++axis)
+            sum += yarn_facets(lobes, axis, half.half) * seen[axis];
         return sum;
     };
 }

@@ -176,7 +176,7 @@ TEST(FabricFit, NamesObliqueViewsThatDoNotFit) {
     const Scratch scratch;
     const std::string file = (scratch / "a.fabric.toml").string();
     const Outcome odd = run_fabric(
-        scratch, {"fit", dozen_table(scratch, 30), "-o", file, "--f0", "0.05", "--use", "all"});
+        scratch, {"fit", dozen_table(scratch, 0.003), "-o", file, "--f0", "0.05", "--use", "all"});
     EXPECT_EQ(odd.status, 0);
     EXPECT_NE(odd.err.find("theta 60, phi 261 under light at theta_i 60, phi_i 45"),
               std::string::npos)

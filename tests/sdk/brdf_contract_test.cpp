@@ -67,7 +67,7 @@ Instance ggx(const char *name, const GgxFacets &facets) {
 
 Instance yarn(const char *name, Cloth (*cloth)(), double f0) {
     // At 89.5 degrees and beyond the albedo changes fast with azimuth
-    return {name, [=] { return any(YarnBrdf(bard_of(cloth()), f0)); }, 0.06};
+    return {name, [=] { return any(YarnBrdf(bard_of(cloth()), f0)); }, 0.06, 0.05, 200000};
 }
 
 // The coloured part below the surface of the same yarns.

@@ -19,7 +19,7 @@ namespace {
 constexpr double kWidening = 1.5, kLeastRoughness = 0.05;
 constexpr float kEvenDraws = 0.2f; // share of the samples that follow the cosine
 constexpr int kSamples = 1024;     // of the light for a view, in the tables
-constexpr int kColumns = 12;       // of a quarter
+constexpr int kColumns = 24;       // of a quarter
 constexpr int kRounds = 12;
 constexpr float kKept = 0.99f; // of the light: the rest is the tables' error
 constexpr float kSmallest = 1e-20f;

@@ -54,13 +54,20 @@ double share(double light, double viewer, double flank) {
 
 } // namespace
 
-FilamentBed::FilamentBed(double flank) : value_(static_cast<std::size_t>(kNodes * kNodes)) {
+FilamentBed::FilamentBed(double flank)
+    : value_(static_cast<std::size_t>(kLine * kLine + 1)) { // four are read where three are used
+    const auto node = [](int i) { return std::clamp(i - 1, 0, kNodes - 1); };
+    std::vector<float> values(static_cast<std::size_t>(kNodes * kNodes));
     for (int i = 0; i < kNodes; ++i)
         for (int j = 0; j <= i; ++j) {
             const auto value = static_cast<float>(share(angle_of_node(i), angle_of_node(j), flank));
-            value_[static_cast<std::size_t>(i * kNodes + j)] = value;
-            value_[static_cast<std::size_t>(j * kNodes + i)] = value;
+            values[static_cast<std::size_t>(i * kNodes + j)] = value;
+            values[static_cast<std::size_t>(j * kNodes + i)] = value;
         }
+    for (int i = 0; i < kLine; ++i)
+        for (int j = 0; j < kLine; ++j)
+            value_[static_cast<std::size_t>(i * kLine + j)] =
+                values[static_cast<std::size_t>(node(i) * kNodes + node(j))];
 }
 
 } // namespace tsuya

@@ -24,15 +24,23 @@ inline constexpr double kFibreF0 = 0.05;
 
 /// The filaments of a cloth.
 struct YarnLobes {
-    double f0 = kFibreF0;    ///< reflectance of the fibre at normal incidence, (0, 1]
-    double roughness = 0.05; ///< standard deviation of a filament's surface slope, radians
+    double f0 = kFibreF0; ///< reflectance of the fibre at normal incidence, (0, 1]
+    /// Standard deviation of a filament's surface slope, radians, 0.005 to 1
+    double roughness = 0.05;
     /// Surface of filaments over that of the cloth at each slope, of yarns along the weft (0) and
     /// the warp (1). pi/2 is a full cover of level filaments.
     std::array<std::array<double, kYarnSlopes>, 2> surface{};
     /// Depth at which the yarns lie between crossing ones, in widths of the opening.
     std::array<double, 2> pit{};
     double even = 0; ///< albedo of the diffuse part: light that was inside filaments
+    /// Surface of filaments that lie at all slopes alike: the steep ends of floats.
+    double loose = 0;
+    /// Depth below its neighbours to which a yarn dives at its steepest slope, in widths of a yarn
+    double dive = 0;
 
+    /// Depth below its neighbours of a yarn at each slope, in widths of a yarn: `dive` times the
+    /// share of its climb that lies between level and that slope.
+    std::array<double, kYarnSlopes> depth(std::size_t axis) const;
     bool operator==(const YarnLobes &) const = default;
 };
 
@@ -42,9 +50,15 @@ double yarn_lobe(int axis, double slope, double roughness, const glm::dvec3 &hal
 /// The same at the sine of the direction's angle with the plane of the cylinder's normals.
 double yarn_lobe(double sine, double roughness);
 
-/// Fits slopes, roughness and the diffuse part to the views with light from straight above. The
-/// depth of pits is not seen from above: it follows from how little of the face a system has.
-/// Throws Error unless f0 is in (0, 1].
+/// Density of the normals of one system's filaments at a half vector, 1/sr: the sum over its
+/// slopes, each of which stands for the slopes between its neighbours as well. \param half unit
+double yarn_facets(const YarnLobes &lobes, int axis, const glm::dvec3 &half);
+
+/// Fits slopes, roughness and depth of diving to the views with light from straight above; no
+/// system gets more surface than a full cover. What more than full covers reflect was inside the
+/// filaments: only then there is a diffuse part, in the place of loose filaments. The depth of pits
+/// is not seen from above: it follows from how little of the face a system has. Throws Error unless
+/// f0 is in (0, 1].
 YarnLobes fit_yarn_lobes(const Bard &bard, double f0, const Progress &progress = {});
 
 /// Fits the depth of pits as well, which light from straight above does not show, to the rows of

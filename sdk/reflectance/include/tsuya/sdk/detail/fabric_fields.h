@@ -42,10 +42,12 @@ template <class F, detail::MaybeConst<GgxFacets> T> void each_field(F &&f, T &fa
 }
 
 template <class F, detail::MaybeConst<YarnLobes> T> void each_field(F &&f, T &lobes) {
-    auto &[f0, roughness, surface, pit, even] = lobes;
+    auto &[f0, roughness, surface, pit, even, loose, dive] = lobes;
     f(detail::Field{.key = "f0", .low = 1e-6, .high = 1, .required = true}, f0);
     f(detail::Field{.key = "roughness", .low = 0.005, .high = 1, .required = true}, roughness);
     f(detail::Field{.key = "even", .low = 0, .high = 1, .required = true}, even);
+    f(detail::Field{.key = "loose", .low = 0, .high = 100, .written = loose > 0}, loose);
+    f(detail::Field{.key = "dive", .low = 0, .high = 10, .written = dive > 0}, dive);
     f(detail::Field{.key = "pit_weft", .low = 0, .high = 10, .required = true}, pit[0]);
     f(detail::Field{.key = "pit_warp", .low = 0, .high = 10, .required = true}, pit[1]);
     f(detail::Field{.key = "surface_weft", .low = 0, .required = true}, surface[0]);

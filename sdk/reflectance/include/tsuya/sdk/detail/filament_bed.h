@@ -9,6 +9,8 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/spline.h"
+
 namespace tsuya {
 
 /// Yarns side by side, each flat on top with round flanks, covered with round filaments side by
@@ -21,14 +23,18 @@ class FilamentBed {
     /// \param flank share of the filaments seen from straight above that lie on the flanks, 0 to 1
     explicit FilamentBed(double flank);
 
-    /// Share of the filaments that reach both, 0 to 1.
-    /// \param light, viewer angles from the yarn's normal as `bed_angle` codes them
-    float at(float light, float viewer) const;
+    /// Share of the filaments of weft and warp that reach both, 0 to 1.
+    /// \param angles from the yarn's normal as `bed_angle` codes them: of light and viewer about
+    /// the weft, then about the warp
+    glm::vec2 at(FourFloats angles) const;
 
     static constexpr int kNodes = 97; ///< of the table, about 1.9 degrees
 
   private:
-    std::vector<float> value_{}; ///< [light][viewer], both from -1 to 1
+    static constexpr int kLine = kNodes + 2;
+
+    /// [light][viewer], both from -1 to 1, with a node beyond each end
+    std::vector<float> value_{};
 };
 
 /// The angle from the yarn's normal in the plane across it as a number from -1 to 1 that needs no
@@ -38,15 +44,17 @@ inline float bed_angle(float across, float up) {
     return across / (std::abs(across) + std::max(up, 0.0f) + kSmallest);
 }
 
-inline float FilamentBed::at(float light, float viewer) const {
-    constexpr float kHalf = 0.5f * (kNodes - 1);
-    const float x = (light + 1) * kHalf, y = (viewer + 1) * kHalf;
-    const int i = std::clamp(static_cast<int>(x), 0, kNodes - 2);
-    const int j = std::clamp(static_cast<int>(y), 0, kNodes - 2);
-    const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);
-    const float *const row = &value_[static_cast<std::size_t>(i * kNodes + j)];
-    const float *const next = row + kNodes;
-    return (1 - s) * ((1 - t) * row[0] + t * row[1]) + s * ((1 - t) * next[0] + t * next[1]);
+inline glm::vec2 FilamentBed::at(FourFloats angles) const {
+    // Of the values themselves: what is smooth so is never outside of them
+    const SplinePlaces places((angles + 1.0f) * (0.5f * (kNodes - 1)), four(kNodes - 1));
+    const auto line = [&](int light, int viewer) {
+        return spline_between_lines(
+            &value_[static_cast<std::size_t>(places.first[light] * kLine + places.first[viewer])],
+            kLine, places.from[light]);
+    };
+    const FourFloats made = spline_along_lines(line(0, 1), line(2, 3),
+                                               FourFloats{places.from[1], places.from[3], 0, 0});
+    return {made[0], made[1]};
 }
 
 } // namespace tsuya
