@@ -8,6 +8,7 @@
 #include "oiio_file.h"
 #include "rows.h"
 #include "tsuya/color/image_file.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/light_group.h"
 
@@ -55,8 +56,8 @@ void check(const SpectralImage &image, const std::string &where) {
                          " values where its size, groups and basis say " + std::to_string(values),
                      where, "expected width x height x channels x groups values, at least one"});
     if (image.aovs.size() != image.aov_names.size())
-        throw Error({"there are " + std::to_string(image.aovs.size()) + " AOVs and " +
-                         std::to_string(image.aov_names.size()) + " names of them",
+        throw Error({detail::counted(image.aovs.size(), "AOV") + " given with " +
+                         detail::counted(image.aov_names.size(), "name"),
                      where, "expected a name for each"});
     for (std::size_t i = 0; i < image.aovs.size(); ++i) {
         check_image(image.aovs[i], where + ": aovs." + image.aov_names[i]);

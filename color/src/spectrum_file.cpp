@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 #include "tsuya/sdk/text.h"
@@ -69,7 +70,7 @@ class Reader {
             !number(fields[1].text) && !fields[0].text.empty())
             return;
         if (fields.size() != 2)
-            return add("there are " + std::to_string(fields.size()) + " columns", 1, kColumns);
+            return add("the row has " + detail::counted(fields.size(), "column"), 1, kColumns);
         const auto wavelength_nm = number(fields[0].text), value = number(fields[1].text);
         if (!wavelength_nm || !value) {
             const Field &bad = wavelength_nm ? fields[1] : fields[0];

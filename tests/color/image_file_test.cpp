@@ -313,7 +313,7 @@ TEST(ImageFile, RefusesWrongPictures) {
     EXPECT_THROW(write_spectral_exr(exr, image), Error);
     image = some_transport();
     image.aov_names.pop_back();
-    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "names of them");
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "given with");
     image = some_transport();
     image.groups[1] = "key";
     test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "two channels");

@@ -111,7 +111,7 @@ TEST(AnimatedGarment, FilesOfOtherFacesAreNamedWithTheirCounts) {
     ASSERT_EQ(frames.further.size(), 2u);
     EXPECT_EQ(frames.further[0][0].z, 1.0);
     for (const auto &[file, text] :
-         {std::pair(cut, "2 faces, where the first frame has 4 vertices, 0 UVs and 1 faces"),
+         {std::pair(cut, "2 faces, where the first frame has 4 vertices, 0 UVs and 1 face"),
           {turned, "joined in another way"}})
         try {
             read_frames(first, {second, file});

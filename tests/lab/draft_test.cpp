@@ -110,7 +110,7 @@ TEST(Draft, YarnsThatFloatForEverAreRefused) {
     EXPECT_EQ(problem_of(drawn({"X.X", ".XX"})), "warp end 3 floats for ever");
     EXPECT_EQ(problem_of(drawn({"X..", ".X."})), "warp end 3 floats for ever");
     EXPECT_EQ(problem_of(drawn({"X.", "XX", ".X"})), "weft pick 2 floats for ever");
-    EXPECT_EQ(problem_of(drawn({"X."})), "a repeat of 2 ends and 1 picks");
+    EXPECT_EQ(problem_of(drawn({"X."})), "a repeat of 2 ends and 1 pick");
     EXPECT_EQ(problem_of({2, 2, {1, 0, 0}}), "the draft has 3 crossings");
 }
 

@@ -97,6 +97,16 @@ TEST(Goniometer, StopEndsTheBuildingOfTheBvh) {
     EXPECT_FALSE(traced);
 }
 
+// It comes before the first report, and takes over a second of silk charmeuse.
+TEST(Goniometer, StopEndsTheLayingOutOfFilaments) {
+    const std::atomic<bool> stop{true};
+    int reports = 0;
+    EXPECT_THROW(measure(build_filaments(weave("silk habotai")), two_lights(), few_photons(40),
+                         {.report = [&](std::string_view, double) { ++reports; }, .stop = &stop}),
+                 Interrupted);
+    EXPECT_EQ(reports, 0);
+}
+
 // Nothing is known of it: 0 would be black cloth.
 TEST(Goniometer, ALightWithoutPhotonsIsNotInTheTable) {
     GoniometerSettings settings = few_photons(1);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "files/block_bytes.h"
 #include "mesh/stop.h"
 #include "tsuya/sdk/file.h"
 
@@ -32,8 +33,6 @@ class BlockWriter {
     }
 
   private:
-    static constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
-
     void write_block() {
         look_at_stop(progress_);
         file_.write(bytes_);

@@ -4,12 +4,11 @@
 #include <cerrno>
 #include <cstring>
 
+#include "files/block_bytes.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
 namespace {
-
-constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
 
 /// Bytes of `text` up to the end of its last line that is not continued; 0 if there is none.
 std::size_t whole_lines(std::string_view text) {

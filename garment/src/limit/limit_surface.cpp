@@ -25,7 +25,6 @@ constexpr int kMaxLevel = 8;
 /// level 2, 0.0015 at level 4 and 3e-5 at level 8; vertices have LimitCorners.
 constexpr int kApproximationLevel = 8;
 constexpr int kSharpApproximationLevel = 10; ///< the same where creases are
-constexpr double kInfinitelySharp = 10.0;    // Sdc::Crease::SHARPNESS_INFINITE
 /// Sharper edges have a normal for each side, which only seams have room for.
 constexpr double kSharpestFold = 9.0;
 

@@ -14,6 +14,8 @@
 
 namespace tsuya::garment {
 
+inline constexpr double kInfinitelySharp = 10.0; ///< Sdc::Crease::SHARPNESS_INFINITE
+
 /// Position, UV and their derivatives by the face's own coordinates.
 struct LimitSample {
     glm::dvec3 p, p_u, p_v;

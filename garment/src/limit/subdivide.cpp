@@ -18,8 +18,6 @@
 namespace tsuya::garment {
 namespace {
 
-constexpr double kInfinitelySharp = 10.0; // Sdc::Crease::SHARPNESS_INFINITE
-
 /// What a thread needs.
 struct Worker {
     LimitSurface::Scratch scratch;

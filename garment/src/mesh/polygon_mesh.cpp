@@ -5,6 +5,7 @@
 
 #include "mesh/islands.h"
 #include "mesh/valence.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -33,10 +34,11 @@ void check_lengths(const PolygonMesh &mesh, MeshProblems &problems) {
         problems.add("face_offset does not run from 0 to the number of corners",
                      "expected faces + 1 entries");
     if (mesh.corner_uv.size() != corners)
-        problems.add("corner_uv has " + std::to_string(mesh.corner_uv.size()) + " entries",
+        problems.add("corner_uv has " + detail::counted(mesh.corner_uv.size(), "entry", "entries"),
                      "expected one a corner, " + std::to_string(corners));
     if (!mesh.face_offset.empty() && mesh.face_panel.size() != mesh.face_count())
-        problems.add("face_panel has " + std::to_string(mesh.face_panel.size()) + " entries",
+        problems.add("face_panel has " +
+                         detail::counted(mesh.face_panel.size(), "entry", "entries"),
                      "expected one a face, " + std::to_string(mesh.face_count()));
     problems.throw_if_any();
     for (std::size_t f = 0; f < mesh.face_count(); ++f)

@@ -16,7 +16,6 @@ constexpr double kTubeTurn = 5;    // times that of cones: normals are interpola
 constexpr double kMostTwist = 0.3; // of a section between rings, radians
 constexpr double kMostSag = 0.02;  // of an arc over its chord, in radii
 constexpr double kFlatness = 2;    // least width of the cell in thicknesses of the cloth
-constexpr double kSharpest = 0.02; // corner, in radii of the section
 
 // One period of a filament, divided finely.
 struct Path {
@@ -200,6 +199,11 @@ void place(const Path &path, std::size_t number, int along, const glm::dvec2 &pe
     }
 }
 
+void stop_if_asked(const Progress &progress) {
+    if (progress.stopped())
+        throw Interrupted("stopped while the filaments were laid out");
+}
+
 double gap_of(const std::vector<Path> &paths, const std::vector<Placed> &placed) {
     std::vector<Capsule> capsules;
     for (std::uint32_t i = 0; i < placed.size(); ++i)
@@ -217,7 +221,7 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
     const int count = std::max(points, 12);
     if (section == FilamentSection::triangular) {
         // Three corners of a circle each, joined by straight edges
-        const double corner = std::clamp(corner_rounding, kSharpest, 1.0);
+        const double corner = std::clamp(corner_rounding, kSharpestCorner, 1.0);
         const int each = count / 3;
         for (int i = 0; i < 3 * each; ++i) {
             const double middle = 2 * kPi / 3 * (i / each);
@@ -229,9 +233,8 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
         return result;
     }
     // A circle whose radius has three waves
-    constexpr double kDeepest = 0.45;
     const double depth =
-        section == FilamentSection::trilobal ? kDeepest * (1 - corner_rounding) : 0;
+        section == FilamentSection::trilobal ? kDeepestHollow * (1 - corner_rounding) : 0;
     for (int i = 0; i < count; ++i) {
         const double a = 2 * kPi * i / count;
         const double r = 1 - 0.5 * depth * (1 - std::cos(3 * a)),
@@ -243,7 +246,7 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
 }
 
 FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment,
-                           int section_points) {
+                           int section_points, const Progress &progress) {
     double radius = 0;
     bool clear = false;
     for (const Filament &f : repeat.filaments) {
@@ -257,6 +260,7 @@ FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment
     bottom = 1e30f;
     top = -1e30f;
     for (const Filament &f : repeat.filaments) {
+        stop_if_asked(progress);
         const glm::dvec3 step =
             f.system == 0 ? glm::dvec3(0, period.y, 0) : glm::dvec3(period.x, 0, 0);
         paths.push_back(divide(f, step, scale, turn_per_segment));
@@ -272,11 +276,14 @@ FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment
     const glm::dvec2 whole = period * cells;
     size = whole;
     std::vector<Placed> placed;
-    for (std::size_t i = 0; i < paths.size(); ++i)
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        stop_if_asked(progress);
         place(paths[i], i, repeat.filaments[i].system == 0 ? 1 : 0, period, whole, placed);
+    }
     if (clear)
         separate(gap_of(paths, placed), repeat.name);
     for (const Placed &p : placed) {
+        stop_if_asked(progress);
         const std::uint32_t system = repeat.filaments[p.path].system;
         const FilamentOptics &optics = repeat.optics[system];
         const bool round = optics.section == FilamentSection::round;

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/lab/filaments.h"
+#include "tsuya/sdk/progress.h"
 
 namespace tsuya::lab {
 
@@ -59,8 +60,10 @@ struct FilamentCell {
     // Where some filament lets light through, all are made thinner by one factor until they are
     // kLeastGap apart: light in two filaments at once would be in none that there is.
     // \param turn_per_segment radians
-    // Throws Error if they overlap by more than kMostThinning.
-    FilamentCell(const FilamentRepeat &repeat, double turn_per_segment, int section_points);
+    // Throws Error if they overlap by more than kMostThinning, Interrupted where `progress` is
+    // stopped.
+    FilamentCell(const FilamentRepeat &repeat, double turn_per_segment, int section_points,
+                 const Progress &progress = {});
 
     glm::vec2 size{};
     float bottom = 0, top = 0; // z of all filaments

@@ -11,6 +11,8 @@
 
 namespace tsuya::lab {
 
+inline constexpr float kRayOffset = 2e-3f; // of a ray from the surface that it leaves, radii
+
 // Where a ray hits a filament.
 struct Hit {
     glm::vec3 point, normal; // the normal is smooth and points outwards

@@ -102,7 +102,7 @@ class Goniometer {
     Goniometer(const FilamentRepeat &repeat, const Directions &directions,
                const GoniometerSettings &settings, const Progress &progress)
         : repeat_(repeat), directions_(directions), settings_(settings), progress_(progress),
-          scene_(FilamentCell(repeat, settings.turn_per_segment, settings.section_points),
+          scene_(FilamentCell(repeat, settings.turn_per_segment, settings.section_points, progress),
                  progress) {
         for (const FilamentOptics &optics : repeat.optics)
             matter_.emplace_back(optics);

@@ -10,7 +10,6 @@
 namespace tsuya::lab {
 namespace {
 
-constexpr float kOffset = 2e-3f; // of a ray from the surface that it leaves, radii
 // Of the energy per solid angle, times the views: what makes a view dim
 constexpr double kDim = 0.001;
 constexpr float kLeastCosine = 1e-5f; // of a photon with the surface
@@ -62,7 +61,7 @@ class Walker {
         ++rays_;
         return scene_.trace(origin, direction, hit);
     }
-    static glm::vec3 outside(const Hit &m) { return m.point + kOffset * m.normal; }
+    static glm::vec3 outside(const Hit &m) { return m.point + kRayOffset * m.normal; }
     // Adds energy per solid angle that leaves a hit towards a view, if the view is not hidden.
     void see(const Hit &m, std::uint32_t view, double per_sr);
     // The same for a view that was drawn with a probability; of dim ones only some are worth a ray.
@@ -207,7 +206,7 @@ bool Walker::pass(Hit &hit, Photon &photon) {
     if (photon.entered && rules_.part == LightPart::surface)
         return false;
     if (photon.inside)
-        photon.place = {hit.on_cone ? hit.point : hit.point - kOffset * hit.normal, hit.segment,
+        photon.place = {hit.on_cone ? hit.point : hit.point - kRayOffset * hit.normal, hit.segment,
                         hit.on_cone};
     else
         photon.origin = outside(hit);
@@ -260,7 +259,7 @@ void Walker::store(Sums &sums) {
 void Walker::photon(const glm::vec2 &place, Sums &sums) {
     const FilamentCell &cell = scene_.cell();
     seen_.clear();
-    Photon photon{glm::vec3(place * cell.size, cell.top + kOffset), -light_.to_light};
+    Photon photon{glm::vec3(place * cell.size, cell.top + kRayOffset), -light_.to_light};
     for (int bounce = 0;; ++bounce) {
         Hit hit;
         const Fate fate = advance(photon, hit);

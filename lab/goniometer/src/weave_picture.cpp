@@ -19,7 +19,6 @@ constexpr double kFewestCrossings = 4, kMostCrossings = 12; // across a picture
 constexpr double kTurnPerSegment = 0.05;                    // radians; finer than a pixel
 constexpr int kSectionPoints = 36;
 constexpr int kBand = 16;         // rows between two reports
-constexpr float kOffset = 2e-3f;  // of a ray from the surface that it leaves, radii
 constexpr float kLampSize = 0.1f; // of the lamp's disk, radians
 // Shares of the light that a face turned to the lamp has from it and from the sky.
 constexpr float kLamp = 0.75f, kSky = 0.45f;
@@ -70,7 +69,7 @@ class Painter {
     Painter(const Weave &weave, const WeavePictureSettings &settings, const FilamentRepeat &repeat,
             const Progress &progress)
         : settings_(settings),
-          scene_(FilamentCell(repeat, kTurnPerSegment, kSectionPoints), progress),
+          scene_(FilamentCell(repeat, kTurnPerSegment, kSectionPoints, progress), progress),
           color_{color_of(weave.warp), color_of(weave.weft)} {
         double radius = 0;
         for (const Filament &f : repeat.filaments)
@@ -99,7 +98,7 @@ class Painter {
 };
 
 glm::vec3 Painter::shade(const Hit &hit, const glm::vec4 &u) const {
-    const glm::vec3 origin = hit.point + kOffset * hit.normal;
+    const glm::vec3 origin = hit.point + kRayOffset * hit.normal;
     // The lamp, through one point of its disk
     const float radius = kLampSize * std::sqrt(u.x);
     const float angle = 2 * kPiF * u.y;

@@ -83,8 +83,8 @@ DarkPixels mean_of_dark(std::span<const ExposedPixels> frames) {
 PixelRates merge_exposures(std::span<const ExposedPixels> exposures,
                            std::span<const DarkPixels> dark, const Sensor &sensor) {
     if (exposures.empty() || dark.size() != exposures.size())
-        throw Error({std::to_string(exposures.size()) + " exposures and " +
-                         std::to_string(dark.size()) + " dark ones",
+        throw Error({detail::counted(exposures.size(), "exposure") + " and " +
+                         detail::counted(dark.size(), "dark one"),
                      "exposures", "expected one or more, and as many dark ones"});
     const std::size_t size = exposures[0].dn.size();
     for (std::size_t k = 0; k < exposures.size(); ++k) {

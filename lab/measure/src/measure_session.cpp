@@ -10,6 +10,7 @@
 #include "tsuya/lab/number_text.h"
 #include "tsuya/lab/view_geometry.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "utc_text.h"
 
@@ -229,16 +230,16 @@ SessionMeasurement measure_session(const Session &session, const MeasureSettings
     for (ChannelMeasurement &channel : measured.channels)
         fill_table(channel, session);
     if (light.clipped_white > 0)
-        measured.warnings.push_back(std::to_string(light.clipped_white) +
-                                    " views of the white standard are clipped under every exposure "
-                                    "and are not used");
+        measured.warnings.push_back(
+            detail::counted(light.clipped_white, "view") +
+            " of the white standard left out: clipped under every exposure");
     if (light.dark_white > 0)
-        measured.warnings.push_back(std::to_string(light.dark_white) +
-                                    " views of the white standard are dark and are not used");
+        measured.warnings.push_back(detail::counted(light.dark_white, "view") +
+                                    " of the white standard left out: dark");
     if (light.without_monitor > 0)
-        measured.warnings.push_back(std::to_string(light.without_monitor) +
-                                    " views of the white standard or the trap are not used: the "
-                                    "monitor is clipped or dark in them");
+        measured.warnings.push_back(detail::counted(light.without_monitor, "view") +
+                                    " of the white standard or the trap left out: the monitor is "
+                                    "clipped or dark there");
     if (session.rig.camera.patch_at.size() > 1 && session.rig.camera.flat.empty())
         measured.warnings.emplace_back(kNoFlat);
     if (measured.channels[0].flicker == 0)

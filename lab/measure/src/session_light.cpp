@@ -4,16 +4,17 @@
 #include <cmath>
 #include <set>
 
+#include "tsuya/lab/frame_camera.h"
 #include "tsuya/lab/number_text.h"
 #include "tsuya/lab/view_geometry.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
 namespace {
 
-constexpr double kExposureTolerance = 0.1; // relative, of what a picture says
-constexpr double kSureWhite = 10;          // times its noise: what is darker is no standard
-constexpr double kLargestUnevenness = 2;   // light of two sides of the measured part
+constexpr double kSureWhite = 10;        // times its noise: what is darker is no standard
+constexpr double kLargestUnevenness = 2; // light of two sides of the measured part
 
 /// The mean of all numbers of a dark frame.
 double level_of(const DarkFrame &dark) {
@@ -227,8 +228,9 @@ class SessionLightReader {
         for (const PatchLight &colour : view.colours) {
             if (colour.middle.clipped > 0)
                 return leave(LeftOutReason::saturated,
-                             std::to_string(colour.middle.clipped) +
-                                 " pixels of the patch are clipped under every exposure");
+                             detail::counted(colour.middle.clipped, "pixel of the patch is",
+                                             "pixels of the patch are") +
+                                 " clipped under every exposure");
             if (colour.uneven > kLargestUnevenness)
                 return leave(LeftOutReason::misplaced, "one side of the patch has " +
                                                            number_text(colour.uneven) +

@@ -8,6 +8,7 @@
 #include "session_charts.h"
 #include "tsuya/lab/number_text.h"
 #include "tsuya/lab/session_pictures.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "utc_text.h"
 
 namespace tsuya::lab {
@@ -120,7 +121,7 @@ std::string Page::facts() const {
                                 std::to_string(session_.plan.left_out.size()) + " by the plan"},
          {"frames", std::to_string(session_.frames.size()) + " of " +
                         std::to_string(session_.plan.frames.size()) + ", " +
-                        std::to_string(session_.rejected.size()) + " pictures put aside"},
+                        detail::counted(session_.rejected.size(), "picture") + " put aside"},
          {"from", time_of(first.time_s)},
          {"to", time_of(last.time_s)},
          {"lamp", (session_.rig.lamp.serial.empty() ? "no serial" : session_.rig.lamp.serial) +

@@ -6,6 +6,7 @@
 #include "hemisphere_picture.h"
 #include "left_out_marks.h"
 #include "tsuya/lab/number_text.h"
+#include "tsuya/sdk/detail/counted.h"
 
 namespace tsuya::lab {
 namespace {
@@ -35,7 +36,7 @@ std::string table_picture(const Session &session, const SessionMeasurement &meas
     const double range = std::max(std::log10(most / least), 1e-9);
     HemispherePicture picture{
         .title = "Reflectance, channel " + measured.channels[channel].name + ": " +
-                 std::to_string(views.size()) + " views",
+                 detail::counted(views.size(), "view"),
         .key = {{MarkShape::dot, scale_colour(0.7), "measured view, by its BRDF in 1/sr"}},
         .scale = ColourScale{.low = number_text(least, 3),
                              .high = number_text(most, 3),

@@ -1,6 +1,7 @@
 #include "tsuya/lab/cameras.h"
 
 #include "tsuya/lab/number_text.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/progress.h"
 
@@ -82,7 +83,7 @@ void TriggeredCamera::collect(const Shot &shot) {
         if (arrived.size() == 1 && arrived == last && arrived.begin()->second > 0)
             return move_file(arrived.begin()->first, shot.file);
         if (clock_.now() >= deadline)
-            throw Error({std::to_string(arrived.size()) + " pictures arrived",
+            throw Error({detail::counted(arrived.size(), "picture") + " arrived",
                          camera_.watch_folder.string(),
                          "expected one within the camera's timeout_s"});
         last = std::move(arrived);

@@ -12,7 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kLook{50}; // at a picture that may still grow
-constexpr double kExposureTolerance = 0.1;     // of the exposure that was planned
 
 std::string numbered(const char *format, std::size_t number, const std::string &extension) {
     char text[64];

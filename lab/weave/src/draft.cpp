@@ -145,7 +145,7 @@ void check_draft(const Draft &draft, const std::string &where) {
              "expected 2 to " + std::to_string(kMaxDraft) + " of each");
     if (draft.warp_up.size() !=
         static_cast<std::size_t>(draft.ends) * static_cast<std::size_t>(draft.picks))
-        fail("the draft has " + std::to_string(draft.warp_up.size()) + " crossings",
+        fail("the draft has " + tsuya::detail::counted(draft.warp_up.size(), "crossing"),
              "expected ends times picks");
     for (int e = 0; e < draft.ends; ++e) {
         int up = 0;

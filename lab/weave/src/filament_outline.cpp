@@ -8,8 +8,6 @@
 namespace tsuya::lab {
 namespace {
 
-constexpr double kSharpest = 0.02; // corner of a triangle
-constexpr double kDeepest = 0.45;  // hollow of a trilobal section
 constexpr double kStraight = 1e-3; // curvature that counts as none
 constexpr double kThird = kPi / 3;
 
@@ -50,8 +48,8 @@ FilamentOutline outline_of(FilamentSection section, double corner_rounding) {
     if (section == FilamentSection::round)
         return {};
     if (section == FilamentSection::triangular)
-        return {.lobe_radius = std::clamp(corner_rounding, kSharpest, 1.0)};
-    const double depth = kDeepest * (1 - corner_rounding);
+        return {.lobe_radius = std::clamp(corner_rounding, kSharpestCorner, 1.0)};
+    const double depth = kDeepestHollow * (1 - corner_rounding);
     return depth < kStraight ? FilamentOutline{} : lobes(1 / (1 + 4.5 * depth), 1 - depth);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::lab {
@@ -31,8 +32,8 @@ void check_repeat(const FilamentRepeat &repeat, const std::string &where) {
         if (!(f.radius > 0) || !std::isfinite(f.radius))
             fail(name + " has no radius", "expected a radius above 0 in metres");
         if (f.point.size() < 2 || (!f.turn.empty() && f.turn.size() != f.point.size()))
-            fail(name + " has " + std::to_string(f.point.size()) + " points and " +
-                     std::to_string(f.turn.size()) + " turns",
+            fail(name + " has " + tsuya::detail::counted(f.point.size(), "point") + " and " +
+                     tsuya::detail::counted(f.turn.size(), "turn"),
                  "expected at least 2 points, and a turn for each or none");
         for (const glm::vec3 &p : f.point)
             if (!finite(p) || std::abs(p.x) > reach.x || std::abs(p.y) > reach.y)

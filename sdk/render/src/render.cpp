@@ -9,6 +9,7 @@
 #include "film_keeper.h"
 #include "passes.h"
 #include "prepared_scene.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/detail/memory.h"
 #include "tsuya/sdk/detail/threads.h"
 
@@ -92,8 +93,8 @@ RenderResult result_of(const Film &film, const Scene &scene, const RenderSetting
     result.image.metadata["seed"] = std::to_string(settings.seed);
     if (film.not_finite > 0)
         result.warnings.push_back({std::to_string(film.not_finite) + " of " +
-                                       std::to_string(film.samples()) +
-                                       " samples are not finite and left out",
+                                       detail::counted(film.samples(), "sample") +
+                                       " left out, which are not finite",
                                    "", ""});
     return result;
 }

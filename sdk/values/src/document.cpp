@@ -9,6 +9,7 @@
 
 #include <toml++/toml.h>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/text.h"
 
@@ -186,8 +187,7 @@ std::optional<glm::dvec3> Section::vector(std::string_view key) const {
     if (values && values->size() == 3)
         return glm::dvec3((*values)[0], (*values)[1], (*values)[2]);
     if (values)
-        problem(key,
-                "'" + std::string(key) + "' has " + std::to_string(values->size()) + " numbers",
+        problem(key, "'" + std::string(key) + "' has " + detail::counted(values->size(), "number"),
                 "expected three, x, y and z");
     return std::nullopt;
 }

@@ -137,7 +137,7 @@ class TableReader {
     void read_row(const std::vector<DelimitedField> &fields, std::string_view line) {
         if (bad_header_)
             return;
-        const std::string count = std::to_string(names_.size()) + " columns";
+        const std::string count = detail::counted(names_.size(), "column");
         if (fields.size() < columns_.needed())
             return problem("the row has fewer than " + count, line.size() + 1,
                            "expected as many as the header line");

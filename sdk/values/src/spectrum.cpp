@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -30,8 +31,8 @@ double Spectrum::at(double nm) const {
 
 void check_spectrum(const Spectrum &s, double low, double high, const std::string &where) {
     if (s.value.empty() || s.value.size() != s.wavelength_nm.size())
-        throw Error({"the spectrum has " + std::to_string(s.wavelength_nm.size()) +
-                         " wavelengths and " + std::to_string(s.value.size()) + " values",
+        throw Error({"the spectrum has " + detail::counted(s.wavelength_nm.size(), "wavelength") +
+                         " and " + detail::counted(s.value.size(), "value"),
                      where, "expected as many values as wavelengths, at least one"});
     for (std::size_t i = 0; i < s.value.size(); ++i) {
         const std::string at = std::to_string(s.wavelength_nm[i]) + " nm";

@@ -48,10 +48,10 @@ void check_surface(const Surface &s, const std::string &where) {
     check_unit(s.warp, s, "warp", where);
     check_unit(s.weft, s, "weft", where);
     if (!s.uv.empty() && s.uv.size() != s.position.size())
-        throw Error(
-            {"uv has " + std::to_string(s.uv.size()) + " entries", where, "expected one a vertex"});
+        throw Error({"uv has " + detail::counted(s.uv.size(), "entry", "entries"), where,
+                     "expected one a vertex"});
     if (!s.panel.empty() && s.panel.size() != s.triangle.size())
-        throw Error({"panel has " + std::to_string(s.panel.size()) + " entries", where,
+        throw Error({"panel has " + detail::counted(s.panel.size(), "entry", "entries"), where,
                      "expected one a triangle"});
 }
 

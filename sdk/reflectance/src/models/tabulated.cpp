@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "models/facets.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/detail/great_circle.h"
 #include "tsuya/sdk/error.h"
 
@@ -80,7 +81,7 @@ TabulatedCore::TabulatedCore(const ReflectanceTable &table, const std::string &w
                 view.sum / view.count / unit_value(made.to_light, glm::vec3(view.to_viewer))));
         }
         if (to_viewers.size() < kLeastViews)
-            throw Error({"a direction of light has " + std::to_string(to_viewers.size()) + " views",
+            throw Error({"a direction of light has " + detail::counted(to_viewers.size(), "view"),
                          where, "expected 6 or more of each"});
         made.views = RingGrid(to_viewers);
         to_lights.push_back(light.to_light);

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <tbb/parallel_for.h>
 
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "views/stop.h"
 
@@ -85,6 +87,73 @@ void check_azimuths(const std::vector<BardView> &views, Symmetry symmetry,
         throw Error({"the views cover " + degrees(covered) + " of azimuth out of " +
                          degrees(whole) + " that the symmetry '" + name_of(symmetry) + "' leaves",
                      where, "expected views over a third of them or more"});
+}
+
+// Views that are one by the symmetry.
+struct Group {
+    glm::dvec2 p; // of the disk
+    std::vector<const BardView *> members;
+};
+
+std::vector<Group> mirror_groups(const std::vector<BardView> &views, Symmetry symmetry) {
+    std::vector<Group> groups;
+    for (const BardView &view : views) {
+        const glm::dvec2 p = disk_of(view.theta, view.phi);
+        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group &g) {
+            return is_same_view(g.p, p, symmetry);
+        });
+        if (same == groups.end())
+            groups.push_back({p, {&view}});
+        else
+            same->members.push_back(&view);
+    }
+    return groups;
+}
+
+struct WeightedSquares {
+    double sum = 0, weights = 0;
+
+    void add(double weight, double square) {
+        sum += weight * square;
+        weights += weight;
+    }
+    double root_mean_square() const { return weights > 0 ? std::sqrt(sum / weights) : 0; }
+};
+
+// One node for each group of views, with their mean.
+struct Averages {
+    std::vector<glm::dvec2> at{};
+    std::vector<double> log_value{}, relative_sigma{};
+    WeightedSquares mirrored{}; // log10 of views over their mean
+    WeightedSquares bright{};   // the same of bright ones, where noise does not explain it
+};
+
+Averages average_mirrors(const std::vector<BardView> &views, Symmetry symmetry, double peak) {
+    const double floor = std::max(peak * kFloor, std::numeric_limits<double>::min());
+    Averages averages;
+    for (const Group &group : mirror_groups(views, symmetry)) {
+        const auto count = static_cast<double>(group.members.size());
+        double mean = 0, variance = 0;
+        for (const BardView *v : group.members) {
+            mean += v->brdf_per_sr / count;
+            variance += v->sigma_per_sr * v->sigma_per_sr;
+        }
+        mean = std::max(mean, floor);
+        averages.at.push_back(group.p);
+        averages.log_value.push_back(std::log(mean));
+        averages.relative_sigma.push_back(std::sqrt(variance) / (mean * count));
+        if (group.members.size() == 1)
+            continue;
+        for (const BardView *v : group.members) {
+            const double d = std::log10(std::max(v->brdf_per_sr, floor) / mean);
+            const bool noise = std::abs(v->brdf_per_sr - mean) < 4 * v->sigma_per_sr;
+            averages.mirrored.add(1, d * d);
+            // By value, or many views of a level ground would hide a highlight that is turned
+            if (mean > kBright * peak)
+                averages.bright.add(mean, noise ? 0 : d * d);
+        }
+    }
+    return averages;
 }
 
 // What the surface is fitted to: one point of the disk for each distinct view.
@@ -219,58 +288,21 @@ void Bard::take_views(const ReflectanceTable &table, const std::string &where) {
         reach = std::max(reach, row.theta_r);
     }
     if (views_.size() < kMinViews || reach < kMinReach)
-        throw Error({"the table has " + std::to_string(views_.size()) +
-                         " views with light from straight above, the farthest " +
+        throw Error({"the table has " + detail::counted(views_.size(), "view") +
+                         " with light from straight above, the farthest " +
                          std::to_string(std::lround(reach / kDegree)) + " degrees from the normal",
                      where,
                      "expected 6 or more rows with theta_i_deg = 0, some beyond 20 degrees"});
 
     check_azimuths(views_, symmetry_, where);
 
-    // Views that are one by the symmetry become one node with their mean
-    struct Group {
-        glm::dvec2 p;
-        std::vector<const BardView *> members;
-    };
-    std::vector<Group> groups;
-    for (const BardView &view : views_) {
-        const glm::dvec2 p = disk_of(view.theta, view.phi);
-        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group &g) {
-            return is_same_view(g.p, p, symmetry_);
-        });
-        if (same == groups.end())
-            groups.push_back({p, {&view}});
-        else
-            same->members.push_back(&view);
-    }
-
-    double squares = 0, mirrored = 0, bright_squares = 0, bright = 0;
-    const double floor = std::max(peak_ * kFloor, std::numeric_limits<double>::min());
-    for (const Group &g : groups) {
-        double mean = 0, variance = 0;
-        for (const BardView *v : g.members) {
-            mean += v->brdf_per_sr / static_cast<double>(g.members.size());
-            variance += v->sigma_per_sr * v->sigma_per_sr;
-        }
-        mean = std::max(mean, floor);
-        nodes_.push_back({g.p.x, g.p.y, 0});
-        log_value_.push_back(std::log(mean));
-        relative_sigma_.push_back(std::sqrt(variance) /
-                                  (mean * static_cast<double>(g.members.size())));
-        for (const BardView *v : g.members) {
-            const double d = std::log10(std::max(v->brdf_per_sr, floor) / mean);
-            squares += g.members.size() > 1 ? d * d : 0;
-            mirrored += g.members.size() > 1 ? 1 : 0;
-            if (g.members.size() > 1 && mean > kBright * peak_) {
-                const bool noise = std::abs(v->brdf_per_sr - mean) < 4 * v->sigma_per_sr;
-                // By value, or many views of a level ground would hide a highlight that is turned
-                bright_squares += noise ? 0 : mean * d * d;
-                bright += mean;
-            }
-        }
-    }
-    asymmetry_ = mirrored > 0 ? std::sqrt(squares / mirrored) : 0;
-    contradiction_ = bright > 0 ? std::sqrt(bright_squares / bright) : 0;
+    Averages averages = average_mirrors(views_, symmetry_, peak_);
+    for (const glm::dvec2 &p : averages.at)
+        nodes_.push_back({p.x, p.y, 0});
+    log_value_ = std::move(averages.log_value);
+    relative_sigma_ = std::move(averages.relative_sigma);
+    asymmetry_ = averages.mirrored.root_mean_square();
+    contradiction_ = averages.bright.root_mean_square();
     check_symmetry(where);
     for (const double v : log_value_)
         mean_log_ += v / static_cast<double>(log_value_.size());

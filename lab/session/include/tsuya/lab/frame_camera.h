@@ -35,6 +35,9 @@ class FrameCamera {
     virtual void collect(const Shot &shot) = 0;
 };
 
+/// The largest share by which the exposure that a picture states may differ from the planned one.
+inline constexpr double kExposureTolerance = 0.1;
+
 /// What a picture says about itself.
 struct FrameFacts {
     std::optional<double> exposure_s{}; ///< seconds; nothing where the file does not say

@@ -14,6 +14,11 @@ namespace tsuya::lab {
 /// Section of a filament across its axis.
 enum class FilamentSection { round, triangular, trilobal };
 
+/// The least radius of the corners of a triangular section, in radii of the circle about it.
+inline constexpr double kSharpestCorner = 0.02;
+/// The largest depth of the hollows of a trilobal section, in the same.
+inline constexpr double kDeepestHollow = 0.45;
+
 /// One filament over one repeat of the weave. The path is periodic: `point.front()` follows
 /// `point.back()` after a step of the whole repeat along the yarn (+x for weft, +y for warp).
 struct Filament {
