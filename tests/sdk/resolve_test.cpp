@@ -58,14 +58,14 @@ TEST(Resolve, RefusesWhatIsOutOfRange) {
     expect_refused(shot, "fabrics.satin.delustre");
 }
 
-TEST(Resolve, TakesTheNormalReflectanceForF0) {
+TEST(Resolve, TakesTheF0OfFibresWhereTheViewsHaveNone) {
     Fabric fabric = satin();
     const Bard bard = *views_of(fabric);
-    fabric.specular = CarriedViews{.bard = bard, .model = ViewModel::takeda};
+    const CarriedViews views{.bard = bard, .model = ViewModel::takeda};
+    fabric.specular = views;
     const Material material = resolve(fabric, "satin");
     ASSERT_TRUE(material.has_specular());
-    const double rho = bard.at({0, 0, 1});
-    const TakedaBrdf expected(bard, std::min(1.0, rho));
+    const TakedaBrdf expected(bard, f0_of(views));
     const glm::vec3 light = direction(40, 10), view = direction(60, 170);
     EXPECT_EQ(material.specular->evaluate(light, view), expected.evaluate(light, view));
 }
