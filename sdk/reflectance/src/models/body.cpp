@@ -17,7 +17,9 @@ namespace {
 // The coloured light of a rough filament is this much wider than its highlight, and at least so
 // wide as the table of facets resolves: found on traced cloth, see sdk/docs/REFLECTANCE_STUDY.md
 constexpr double kWidening = 1.5, kLeastRoughness = 0.05;
-constexpr float kEvenDraws = 0.2f; // share of the samples that follow the cosine
+// Shares of the samples that follow the cosine and the cones of the yarns; the others follow facets
+constexpr float kByCosine = 0.1f, kByCones = 0.75f;
+constexpr double kConeWidth = 1.3; // in widths of the facets
 constexpr int kSamples = 1024;     // of the light for a view, in the tables
 constexpr int kColumns = 24;       // of a quarter
 constexpr int kRounds = 12;
@@ -38,15 +40,14 @@ float about_yarn(float cosine) {
 // The half vector of two directions, and what both make of it about the yarns along x and y.
 struct BodyHalf {
     glm::vec3 half;
-    float facing; // cosine of either direction with it
-    glm::vec2 turned;
+    float facing;     // cosine of either direction with it
+    glm::vec2 turned; // cosines of the angle between the two about the axes
 
     BodyHalf(const glm::vec3 &l, const glm::vec3 &v) {
         const float length = std::sqrt(std::max(2 * (1 + glm::dot(l, v)), kSmallest));
         half = (l + v) * (1 / length);
         facing = std::clamp(0.5f * length, 1e-10f, 1.0f);
-        turned = {about_yarn(cosine_about(l.x, v.x, glm::dot(l, v))),
-                  about_yarn(cosine_about(l.y, v.y, glm::dot(l, v)))};
+        turned = {cosine_about(l.x, v.x, glm::dot(l, v)), cosine_about(l.y, v.y, glm::dot(l, v))};
     }
     // Of the angle between two directions about an axis, from their parts along it
     static float cosine_about(float a, float b, float both) {
@@ -75,8 +76,12 @@ struct Part {
 BodyCore::BodyCore(const YarnLobes &lobes,
                    const std::function<float(const glm::vec3 &)> &surface_albedo,
                    const Progress &progress)
-    : facets_(lobes, std::max(kWidening * lobes.roughness, kLeastRoughness)) {
+    : facets_(lobes, std::max(kWidening * lobes.roughness, kLeastRoughness)),
+      cones_(lobes, kConeWidth * std::max(kWidening * lobes.roughness, kLeastRoughness),
+             about_yarn) {
     close_energy(surface_albedo, progress);
+    by_cosine_ = kByCosine;
+    by_cones_ = kByCones;
 }
 
 BodyCore::BodyCore(const YarnBrdf &surface, const Progress &progress)
@@ -118,12 +123,15 @@ void BodyCore::close_energy(const std::function<float(const glm::vec3 &)> &surfa
 
 WeighedLight BodyCore::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const {
     const BodyHalf half(to_light, to_viewer);
-    const glm::vec2 d = facets_.at(half.half), by_system = d * half.turned;
+    const glm::vec2 d = facets_.at(half.half);
+    const glm::vec2 by_system = d * glm::vec2(about_yarn(half.turned.x), about_yarn(half.turned.y));
     const float scale = scale_.at(to_light) * scale_.at(to_viewer) * to_light.z /
                         std::max(to_light.z + to_viewer.z, kSmallest);
     // dH/dL = 1 / (4 V.H)
     return {(by_system.x + by_system.y) * scale,
-            kEvenDraws * to_light.z / kPiF + (1 - kEvenDraws) * (d.x + d.y) / (4 * half.facing),
+            by_cosine_ * to_light.z / kPiF +
+                (by_cones_ > 0 ? by_cones_ * cones_.density(to_light, to_viewer, half.turned) : 0) +
+                (1 - by_cosine_ - by_cones_) * (d.x + d.y) / (4 * half.facing),
             by_system.x * scale};
 }
 
@@ -131,14 +139,20 @@ float BodyCore::f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) con
     return weigh(to_light, to_viewer).f_cos;
 }
 
-// Samples H, and mirrors the fixed direction in it, or a direction by its cosine.
+// Samples a direction by its cosine, by the cones of the yarns, or H, in which the fixed direction
+// is mirrored.
 glm::vec3 BodyCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
-    if (u.z < kEvenDraws) {
+    const auto rest = [&](float from, float share) {
+        return std::min((u.z - from) / share, 0x1.fffffep-1f);
+    };
+    if (u.z < by_cosine_) {
         const glm::vec2 p = disk_of_square({u.x, u.y});
         return {p, std::sqrt(std::max(1 - glm::dot(p, p), 0.0f))};
     }
-    const glm::vec3 half =
-        facets_.sample({u.x, u.y, std::min((u.z - kEvenDraws) / (1 - kEvenDraws), 0x1.fffffep-1f)});
+    const float before = by_cosine_ + by_cones_;
+    if (u.z < before)
+        return cones_.sample(fixed, {u.x, rest(by_cosine_, by_cones_), u.y});
+    const glm::vec3 half = facets_.sample({u.x, u.y, rest(before, 1 - before)});
     const float facing = glm::dot(fixed, half);
     return facing > 0 ? 2 * facing * half - fixed : glm::vec3(0);
 }

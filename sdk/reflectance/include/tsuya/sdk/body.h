@@ -22,6 +22,7 @@
 
 #include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/detail/brdf_core.h"
+#include "tsuya/sdk/detail/yarn_cones.h"
 #include "tsuya/sdk/detail/yarn_facets.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/yarn.h"
@@ -46,13 +47,19 @@ class BodyCore {
     glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &direction) const { return albedo_.at(direction); }
 
-    std::size_t bytes() const { return facets_.bytes() + scale_.bytes() + albedo_.bytes(); }
+    std::size_t bytes() const {
+        return facets_.bytes() + cones_.bytes() + scale_.bytes() + albedo_.bytes();
+    }
 
   private:
     void close_energy(const std::function<float(const glm::vec3 &)> &surface_albedo,
                       const Progress &progress);
 
+    // Shares of the samples, see body.cpp; the tables are filled without cones, in a quarter of the
+    // time
+    float by_cosine_ = 0.2f, by_cones_ = 0;
     YarnFacets facets_{};
+    YarnCones cones_{};
     AlbedoTable scale_{};  ///< (1 - E) q
     AlbedoTable albedo_{}; ///< 1 - E but for what the iteration leaves
 };

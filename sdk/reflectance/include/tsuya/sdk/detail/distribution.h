@@ -35,6 +35,19 @@ class Distribution2D {
         const float *const cdf = &column_cdf_[row * (columns_ + 1) + column];
         return row_density_[row] * (cdf[1] - cdf[0]);
     }
+    /// A place along the row at y alone, with respect to the unit length.
+    float sample_along(float y, float u) const {
+        const std::size_t row = cell_of(y, rows_);
+        const Draw column =
+            invert(&column_cdf_[row * (columns_ + 1)], &column_guide_[row * columns_], columns_, u);
+        return (static_cast<float>(column.cell) + column.offset) / static_cast<float>(columns_);
+    }
+    /// Density of `sample_along`.
+    float density_along(float y, float x) const {
+        const float *const cdf =
+            &column_cdf_[cell_of(y, rows_) * (columns_ + 1) + cell_of(x, columns_)];
+        return static_cast<float>(columns_) * (cdf[1] - cdf[0]);
+    }
     std::size_t bytes() const {
         return (row_cdf_.size() + row_density_.size() + column_cdf_.size()) * sizeof(float) +
                (row_guide_.size() + column_guide_.size()) * sizeof(std::uint16_t);
