@@ -63,7 +63,8 @@ struct FabricFit final : Command {
                 "in place of brdf_per_sr are those of a dyed cloth, whose dye is separated from "
                 "the surface.\n"
                 "Without --model, yarn and ggx are each fitted to four fifths of the views, five "
-                "times, and the fabric takes the one that is nearer to the views left out. The "
+                "times, and the fabric takes ggx where it is nearer to the views left out by "
+                "0.05 (l2_cos) or more. The "
                 "residual of the fabric's model at each row is printed; where it misses the views "
                 "by more than 0.15 (l2_cos), a warning says so. Rows under oblique light are "
                 "compared with the model; --use all fits the model yarn to them as well.");
