@@ -113,6 +113,12 @@ void print_text(const FitReport &report) {
     for (const BodyChannel &channel : report.channels)
         std::cout << std::setprecision(4) << "body of channel " << channel.name << ": reflects "
                   << channel.reflectance << "\n";
+    if (report.covers)
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            std::cout << std::setprecision(3) << (axis == 0 ? "weft" : "warp") << ": on "
+                      << report.covers->on_face[axis]
+                      << " of the face by the weave, fitted filaments cover "
+                      << report.covers->fitted[axis] << "\n";
     print_oblique(report);
 }
 
@@ -148,6 +154,11 @@ void print_json(const FitReport &report) {
                                     {"bard_per_sr", view.fitted_per_sr},
                                     {"fitted_per_sr", modelled},
                                     {"log10_ratio", log_ratio(modelled, view.brdf_per_sr)}});
+    }
+    if (report.covers) {
+        const auto &[face, fitted] = *report.covers;
+        numbers["weave"] = {{"weft", {{"on_face", face[0]}, {"fitted", fitted[0]}}},
+                            {"warp", {{"on_face", face[1]}, {"fitted", fitted[1]}}}};
     }
     if (!report.after.views.empty())
         numbers["oblique"] = json_of_oblique(report);

@@ -1,6 +1,7 @@
 #pragma once
 // What tsuya fabric fit reports.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,10 +34,17 @@ struct WrittenModel {
     std::vector<ModelScore> scores{}; // what chose it; empty where nothing did
 };
 
+// Shares of the plane: what a weave has of either system on its face, and what the fitted filaments
+// would cover if they were level.
+struct Covers {
+    std::array<double, 2> on_face{}, fitted{}; // weft, warp
+};
+
 struct FitReport {
     const Bard &bard;
     WrittenModel model{};
     std::vector<BodyChannel> channels{};
+    std::optional<Covers> covers{}; // none without a weave or yarns
     double f0 = 1;
     std::optional<YarnLobes> yarn{}; // fitted to oblique light too
     ObliqueViews before{}, after{};

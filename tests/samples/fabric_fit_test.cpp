@@ -108,6 +108,27 @@ TEST(FabricFit, ReportsTheResidualOfTheModelThatItWrites) {
     EXPECT_EQ(std::get<CarriedViews>(read_fabric(file).specular).model, ViewModel::lambert);
 }
 
+TEST(FabricFit, SaysWhereADraftDoesNotExplainTheYarns) {
+    const Scratch scratch;
+    const std::string table = (scene::data_folder() / "fabrics/black_satin.csv").string(),
+                      file = (scratch / "f.fabric.toml").string();
+    const auto fit = [&](const std::string &weave) {
+        return run_fabric(scratch, {"fit", table, "-o", file, "--json", "--weave", weave});
+    };
+    const Outcome own = fit("black polyester satin"), other = fit("polyester taffeta");
+    EXPECT_EQ(own.err, "");
+    const json covers = json::parse(own.out).at("weave");
+    EXPECT_NEAR(covers.at("warp").at("on_face").get<double>(), 0.875, 0.01);
+    EXPECT_NEAR(covers.at("warp").at("fitted").get<double>() /
+                    covers.at("weft").at("fitted").get<double>(),
+                0.875 / 0.125, 2);
+    EXPECT_NE(other.err.find("the draft of polyester taffeta does not explain the fitted yarns: it "
+                             "has 40 % weft and 60 % warp"),
+              std::string::npos)
+        << other.err << other.out;
+    EXPECT_EQ(fit("no such weave").status, 2);
+}
+
 TEST(FabricFit, TakesFacetsForViewsThatFacetsMade) {
     const Scratch scratch;
     const GgxBrdf facets({.alpha_weft = 0.3, .alpha_warp = 0.3});
