@@ -13,7 +13,7 @@
 
 namespace tsuya::program {
 
-/// What a process tells its caller.
+/// The exit status of a process.
 enum Status : int {
     kDone = 0,
     kWrongInput = 1,
@@ -26,7 +26,7 @@ enum Status : int {
 class Command {
   public:
     virtual ~Command() = default;
-    /// Tells the options, each with the field that it fills. A field's value is the default.
+    /// Declares the options, each with the field that it fills. A field's value is the default.
     virtual void options(Options &options) = 0;
     /// \return what the process returns. Errors are thrown.
     virtual Status run(Console &console) = 0;

@@ -15,7 +15,7 @@ struct Report;
 
 namespace tsuya::program {
 
-/// How progress is told: a bar that rewrites its line, lines of text, lines of JSON, not at all.
+/// How progress is shown: a bar that rewrites its line, lines of text, lines of JSON, not at all.
 enum class ProgressMode { bar, plain, json, off };
 
 /// `auto` (a bar where stderr is a terminal, else off), `plain`, `json`, `off`.
@@ -43,7 +43,7 @@ std::atomic<bool> &watch_snapshot_signal();
 class Console {
   public:
     void set_mode(ProgressMode mode) { mode_ = mode; }
-    /// Progress that is told on stderr. From now on the signals set its stop flag; a second one of
+    /// Progress that is shown on stderr. From now on the signals set its stop flag; a second one of
     /// its kind ends the process. The console must outlive it.
     Progress progress();
 

@@ -20,11 +20,11 @@ namespace tsuya::program {
 namespace {
 
 constexpr double kF0 = 0.213; // [Takeda] sets f0 = rho0(0, 0), of its satin
-constexpr std::array kThetaDeg = {0.0, 15.0, 30.0, 45.0, 60.0, 75.0};
+constexpr std::array kLightDeg = {0.0, 15.0, 30.0, 45.0, 60.0, 75.0};
 constexpr std::array kMirrorDeg = {0.0, 14.0, 29.0, 45.0, 61.0, 76.0}; // where the peak was seen
 constexpr std::array kSpacingDeg = {1.0, 2.0, 2.5, 3.0, 5.0, 6.0, 7.5, 9.0, 10.0, 15.0, 18.0, 30.0};
 
-using Column = std::array<double, kThetaDeg.size()>;
+using Column = std::array<double, kLightDeg.size()>;
 
 // One table of the paper. The feature point lies on the circle beta = a - theta_i about R, which
 // the light from straight above has at beta0 = a; `psi_deg` is its turn about R from the cloth.
@@ -84,8 +84,8 @@ struct Row {
 
 std::vector<Row> rows_of(const PaperTable &table) {
     std::vector<Row> rows;
-    for (std::size_t i = 0; i < kThetaDeg.size(); ++i) {
-        const double theta = kThetaDeg[i], rho0 = table.measured[0];
+    for (std::size_t i = 0; i < kLightDeg.size(); ++i) {
+        const double theta = kLightDeg[i], rho0 = table.measured[0];
         const glm::dvec3 light = light_at(theta);
         const double beta = (90 - theta) * kDegree, psi = table.psi_deg * kDegree;
         const glm::dvec3 view(std::sin(beta) * std::cos(psi), std::cos(beta),

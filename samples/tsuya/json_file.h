@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What commands tell machines.
+/// What commands print for machines.
 
 #include <filesystem>
 

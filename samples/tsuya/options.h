@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a command asks of its user. A command tells its options with the fields that they fill;
+/// What a command asks of its user. A command declares its options with the fields that they fill;
 /// parse_call (command.h) takes the words of a call apart.
 ///
 ///     void options(Options &o) override {

@@ -26,7 +26,6 @@ namespace tsuya::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20240921;
-constexpr double kHalfPi = kPi / 2;
 
 long random_pairs() {
     const char *text = std::getenv("TSUYA_TEST_EFFORT");

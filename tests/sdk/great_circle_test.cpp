@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,6 @@
 namespace tsuya::test {
 namespace {
 
-constexpr double kHalfPi = std::numbers::pi / 2;
 constexpr int kDraws = 20000;
 
 // [Takeda] Eq. 15 in double, as it is printed, with the direction turned in the plane of R and V.
@@ -26,9 +24,9 @@ glm::dvec3 plain_basic(const glm::dvec3 &light, const glm::dvec3 &view) {
     const glm::dvec3 away = -glm::normalize(glm::dvec3(light.x, light.y, 0));
     const glm::dvec3 across = view - glm::dot(view, away) * away;
     const double beta = std::atan2(glm::length(across), glm::dot(view, away));
-    const double beta0 = beta <= kHalfPi - tilt ? kHalfPi / (kHalfPi - tilt) * beta
-                                                : kHalfPi / (kHalfPi + tilt) * beta +
-                                                      std::numbers::pi * tilt / (kHalfPi + tilt);
+    const double beta0 = beta <= kHalfPi - tilt
+                             ? kHalfPi / (kHalfPi - tilt) * beta
+                             : kHalfPi / (kHalfPi + tilt) * beta + kPi * tilt / (kHalfPi + tilt);
     return std::cos(beta0) * away + std::sin(beta0) * glm::normalize(across);
 }
 

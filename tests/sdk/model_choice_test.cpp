@@ -17,7 +17,7 @@ CarriedViews views_of(const ReflectanceTable &table) {
 }
 
 std::vector<ModelScore> scores_of(const ReflectanceTable &table) {
-    return cross_validate(table, views_of(table), "t");
+    return cross_validate(views_of(table), "t");
 }
 
 // Views that the yarn model itself would show.
@@ -44,7 +44,7 @@ TEST(ModelChoice, FindsTheModelThatMadeTheViews) {
     EXPECT_GT(facets[0].l2_cos, 2 * facets[1].l2_cos);
 }
 
-// The views of a fold are foretold by the others alone: no fit can follow their noise of 20 %,
+// The views of a fold are predicted by the others alone: no fit can follow their noise of 20 %,
 // which is 0.2 / sqrt(1 + 0.2^2) of what they show.
 TEST(ModelChoice, ShowsNoiseAsTheErrorOfViewsLeftOut) {
     ReflectanceTable noisy = normal_table(isotropic_cloth(), even_grid(5, 10));
@@ -71,20 +71,20 @@ TEST(ModelChoice, LeavesMirrorImagesOutTogether) {
 
 TEST(ModelChoice, IsTheDefaultWhereNothingIsKnown) {
     EXPECT_EQ(chosen({}), ViewModel::yarn);
-    // The measured woven shade of sdk/docs/REFLECTANCE_STUDY.md, which yarn foretells better
+    // The measured woven shade of sdk/docs/REFLECTANCE_STUDY.md, which yarn predicts better
     EXPECT_EQ(chosen({{ViewModel::yarn, 0.0503}, {ViewModel::ggx, 0.0356}}), ViewModel::yarn);
     EXPECT_EQ(chosen({{ViewModel::yarn, 0.1672}, {ViewModel::ggx, 0.0009}}), ViewModel::ggx);
     ReflectanceTable few{.symmetry = Symmetry::orthotropic};
     for (const double theta : {0.0, 0.5, 1.0})
         for (const double phi : {0.0, 1.5})
             few.rows.push_back({0, 0, theta, phi, 0.1});
-    EXPECT_TRUE(cross_validate(few, views_of(few), "t").empty());
+    EXPECT_TRUE(cross_validate(views_of(few), "t").empty());
 }
 
 TEST(ModelChoice, StopsOnRequest) {
     const ReflectanceTable table = normal_table(satin_cloth(), even_grid(5, 10));
     std::atomic<bool> stop{true};
-    EXPECT_THROW(cross_validate(table, views_of(table), "t", Progress{.stop = &stop}), Interrupted);
+    EXPECT_THROW(cross_validate(views_of(table), "t", Progress{.stop = &stop}), Interrupted);
 }
 
 } // namespace

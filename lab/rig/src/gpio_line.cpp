@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char *kConsumer = "tsuya";
 
-/// Takes the line and tells its name.
+/// Takes the line and returns its name.
 std::unique_ptr<gpiod_api::Request> take(const GpioLineSettings &settings, bool output,
                                          std::string &name) {
     const GpioPlace place = find_gpio_line(settings);

@@ -11,14 +11,14 @@
 
 namespace tsuya::lab::gpiod_api {
 
-/// A line as the kernel tells of it.
+/// A line as the kernel reports it.
 struct LineInfo {
     std::string name{};
     std::string consumer{};
     bool output = false;
 };
 
-/// A chip as the kernel tells of it; the lines by offset.
+/// A chip as the kernel reports it; the lines by offset.
 struct ChipInfo {
     std::string label{};
     std::vector<LineInfo> lines{};

@@ -227,7 +227,7 @@ void SceneReader::read_backdrop() {
     BackdropEntry entry{.where = section->where()};
     Cyclorama &shape = entry.shape;
     shape.centre = section->vector("centre").value_or(shape.centre);
-    // Faces the camera unless it is told otherwise
+    // Faces the camera unless the file says otherwise
     double towards = file_.framing.azimuth;
     if (file_.camera) {
         const glm::dvec3 back = file_.camera->eye - file_.camera->target;

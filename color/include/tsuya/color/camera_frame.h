@@ -43,7 +43,7 @@ struct CameraFrame {
     PixelArea area{};          ///< of the whole picture
     int width = 0, height = 0; ///< of the whole picture
     std::string cfa{}; ///< colours of the 2 x 2 filters at the area's corner, such as RGGB; empty
-                       ///< if there are none, or OpenImageIO does not tell
+                       ///< if there are none, or OpenImageIO does not report it
     std::optional<double> exposure_s{};
     std::optional<double> f_number{};
     std::optional<double> iso{}; ///< OpenImageIO finds it in RAW files alone

@@ -25,7 +25,7 @@ Image read_image(const std::filesystem::path &path);
 /// How samples are stored. Half has 11 significant bits and ends at 65504.
 enum class SampleType { float32, half };
 
-/// What write_exr is told beside the picture.
+/// What write_exr writes beside the picture.
 struct ExrOptions {
     SampleType samples = SampleType::float32;
     std::map<std::string, std::string> metadata{}; ///< written as `tsuya:meta:<key>`

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "tsuya/sdk/angle.h"
@@ -32,20 +31,6 @@ template <class Function> Spectrum mapped(Spectrum spectrum, const Function &fun
 
 // Of a surface that reflects all: what the coloured part is divided by stays above 0.
 constexpr double kLeastPassed = 1e-3;
-
-// Of one system, over the surface of the cloth.
-double filaments(const YarnLobes &lobes, std::size_t axis) {
-    return std::accumulate(lobes.surface[axis].begin(), lobes.surface[axis].end(), 0.0);
-}
-
-// Of the filaments of both systems.
-double weft_share(const YarnLobes &lobes) {
-    const double weft = filaments(lobes, 0), both = weft + filaments(lobes, 1);
-    return both > 0 ? weft / both : 0.5;
-}
-
-// There are filaments that the coloured part can follow.
-bool has_filaments(const YarnLobes &lobes) { return filaments(lobes, 0) + filaments(lobes, 1) > 0; }
 
 // The mean of an albedo at 8 degrees from the normal, where the port of a spectrophotometer is.
 template <class Albedo> double at_port(const Albedo &albedo) {
@@ -94,7 +79,8 @@ void add_colours(const Fabric &fabric, Material &material, const Material *made,
     };
     const auto *const yarns = material.specular ? material.specular->get_if<YarnBrdf>() : nullptr;
     Port port{.colours = colours, .even = std::max(1 - at_port(surface), kLeastPassed)};
-    if (yarns && has_filaments(yarns->lobes()) && has_body(fabric)) {
+    if (yarns && yarns->lobes().filaments(0) + yarns->lobes().filaments(1) > 0 &&
+        has_body(fabric)) {
         if (made && made->body && made->has_specular() == material.has_specular())
             material.body = made->body;
         else
@@ -104,7 +90,7 @@ void add_colours(const Fabric &fabric, Material &material, const Material *made,
                              kLeastPassed);
     }
     const Spectrum &weft = colours.dye_of_weft(), &warp = colours.dye_of_warp();
-    const double share = yarns ? weft_share(yarns->lobes()) : 0.5;
+    const double share = yarns ? yarns->lobes().weft_share() : 0.5;
     material.dye = combined(weft, warp, [&](double a, double b) {
         return share * port.even_albedo(a) + (1 - share) * port.even_albedo(b);
     });

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "models/facets.h"
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
-
-constexpr double kHalfPi = std::numbers::pi / 2;
 
 double log_ratio(double fitted, double measured) { return std::abs(std::log10(fitted / measured)); }
 

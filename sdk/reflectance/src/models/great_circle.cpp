@@ -9,7 +9,6 @@
 namespace tsuya {
 namespace {
 
-constexpr float kHalfPi = 0.5f * kPiF; // `a` of [Takeda] Eq. 15
 // Below it the limit of the quotient is exact to float.
 constexpr float kSmallSine = 1e-6f;
 
@@ -17,7 +16,7 @@ constexpr float kSmallSine = 1e-6f;
 struct Axis {
     glm::vec3 away{1, 0, 0};
     float tilt = 0;
-    float rest = kHalfPi; // from the horizon: a - tilt, precise at grazing
+    float rest = kHalfPiF; // from the horizon: a - tilt, precise at grazing
 
     // What is left of a direction without its part along R. From its own part across R: the
     // difference of two vectors would lose a small rest, and V0 its length with it.
@@ -32,13 +31,13 @@ Axis axis_of(const glm::vec3 &to_light) {
     if (!(horizontal > 0))
         return {};
     return {{-to_light.x / horizontal, -to_light.y / horizontal, 0},
-            std::min(angle_of(horizontal, to_light.z), kHalfPi),
+            std::min(angle_of(horizontal, to_light.z), kHalfPiF),
             std::max(angle_of(to_light.z, horizontal), 1e-7f)};
 }
 
 // a/(a - theta_i) towards R, a/(a + theta_i) on the light's side
-float slope_towards(const Axis &axis) { return kHalfPi / axis.rest; }
-float slope_behind(const Axis &axis) { return kHalfPi / (kHalfPi + axis.tilt); }
+float slope_towards(const Axis &axis) { return kHalfPiF / axis.rest; }
+float slope_behind(const Axis &axis) { return kHalfPiF / (kHalfPiF + axis.tilt); }
 
 } // namespace
 
@@ -52,7 +51,7 @@ GreatCircle to_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     // [Takeda] Eq. 15
     if (c.beta <= axis.rest) {
         c.slope = slope_towards(axis);
-        c.beta0 = std::min(c.slope * c.beta, kHalfPi);
+        c.beta0 = std::min(c.slope * c.beta, kHalfPiF);
     } else {
         c.slope = slope_behind(axis);
         // = slope * beta + pi theta_i/(a + theta_i), exact at beta = pi
@@ -72,8 +71,8 @@ ViewOfBasic view_of_basic(const glm::vec3 &to_light, const glm::vec3 &basic) {
     const glm::vec3 across = axis.across(basic);
     const float sine = glm::length(across);
     const float beta0 = angle_of(sine, cosine);
-    v.slope = beta0 <= kHalfPi ? slope_towards(axis) : slope_behind(axis);
-    const float beta = beta0 <= kHalfPi ? beta0 / v.slope : kPiF - (kPiF - beta0) / v.slope;
+    v.slope = beta0 <= kHalfPiF ? slope_towards(axis) : slope_behind(axis);
+    const float beta = beta0 <= kHalfPiF ? beta0 / v.slope : kPiF - (kPiF - beta0) / v.slope;
     const SineCosine turned = sine_cosine(beta);
     const float ratio = sine > kSmallSine ? turned.sine / sine : 1 / v.slope;
     v.sine_ratio = 1 / std::max(ratio, 1e-12f);

@@ -13,7 +13,6 @@
 namespace tsuya {
 namespace {
 
-constexpr float kHalfPi = 0.5f * kPiF;
 constexpr int kTableNodes = 161;     // quadrant; 0.5 degrees at the pole
 constexpr int kFullTableNodes = 181; // whole square; 0.9 degrees
 constexpr int kDensityCells = 96;
@@ -74,10 +73,10 @@ void TakedaCore::tabulate_densities(const Progress &progress) {
         stop_if_asked(progress);
         const float sine = glm::length(p), tilt = std::asin(sine), turned = 2 * tilt;
         const float theta =
-            std::sqrt(std::min(turned, kHalfPi) * kHalfPi * turned / (kHalfPi + turned));
+            std::sqrt(std::min(turned, kHalfPiF) * kHalfPiF * turned / (kHalfPiF + turned));
         const glm::vec2 level = p * (std::sin(theta) / std::max(sine, 1e-9f));
         return scaled_.at({level, std::cos(theta)}) * fresnel(f0_, std::cos(tilt)) *
-               std::exp(-std::max(0.0f, tilt - 0.5f * kHalfPi) / kTail);
+               std::exp(-std::max(0.0f, tilt - 0.5f * kHalfPiF) / kTail);
     });
 }
 
@@ -91,11 +90,6 @@ void TakedaCore::tabulate_albedos(Symmetry symmetry, const Progress &progress) {
     view_albedo_ = AlbedoTable(symmetry, [&](const glm::vec3 &to_viewer) {
         return mean_weight_of_lights(*this, to_viewer, progress);
     });
-}
-
-std::size_t TakedaCore::table_bytes() const {
-    return scaled_.bytes() + basics_.bytes() + halves_.bytes() + light_albedo_.bytes() +
-           view_albedo_.bytes();
 }
 
 float TakedaCore::limit_at(const glm::vec3 &to_light) const {

@@ -9,9 +9,8 @@
 namespace tsuya {
 namespace {
 
-constexpr float kHalfPi = 0.5f * kPiF; // `a` of [Takeda] Eq. 15
-constexpr int kTableNodes = 161;       // quadrant; 0.5 degrees at the pole
-constexpr int kFullTableNodes = 241;   // whole square
+constexpr int kTableNodes = 161;     // quadrant; 0.5 degrees at the pole
+constexpr int kFullTableNodes = 241; // whole square
 constexpr int kAlbedoSamples = 4096;
 
 } // namespace
@@ -23,16 +22,16 @@ glm::vec3 printed_basic(const glm::vec3 &to_light, const glm::vec3 &to_viewer) {
     const glm::vec2 away = -glm::vec2(to_light) / horizontal, side(-away.y, away.x);
     const float along = glm::dot(away, glm::vec2(to_viewer));
     const float across = glm::dot(side, glm::vec2(to_viewer));
-    const float tilt = std::min(std::atan2(horizontal, to_light.z), kHalfPi);
+    const float tilt = std::min(std::atan2(horizontal, to_light.z), kHalfPiF);
     const float beta = std::atan2(std::hypot(across, to_viewer.z), along);
     // [Takeda] Eq. 15, divided by beta
-    float ratio = kHalfPi / std::max(kHalfPi - tilt, 1e-7f);
-    if (beta > kHalfPi - tilt)
-        ratio = (kHalfPi + kPiF * tilt / beta) / (kHalfPi + tilt);
+    float ratio = kHalfPiF / std::max(kHalfPiF - tilt, 1e-7f);
+    if (beta > kHalfPiF - tilt)
+        ratio = (kHalfPiF + kPiF * tilt / beta) / (kHalfPiF + tilt);
     const float theta_r = std::atan2(glm::length(glm::vec2(to_viewer)), to_viewer.z);
     const float phi_r = std::atan2(across, along);
-    const float theta = kHalfPi - ratio * (kHalfPi - theta_r); // [Takeda] Eq. 16
-    const float phi = ratio * phi_r;                           // [Takeda] Eq. 17
+    const float theta = kHalfPiF - ratio * (kHalfPiF - theta_r); // [Takeda] Eq. 16
+    const float phi = ratio * phi_r;                             // [Takeda] Eq. 17
     const glm::vec2 level = std::sin(theta) * (std::cos(phi) * away + std::sin(phi) * side);
     return {level, std::max(std::cos(theta), 0.0f)};
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -21,11 +19,7 @@ constexpr int kAlbedoColumns = 24; // of a quarter: at grazing the albedo change
 
 // What is of no system is shared by weft and warp: each has as much as it has of the filaments.
 glm::vec2 shares_of_systems(const YarnLobes &lobes) {
-    const auto filaments = [&](std::size_t axis) {
-        return std::accumulate(lobes.surface[axis].begin(), lobes.surface[axis].end(), 0.0);
-    };
-    const double weft = filaments(0), both = weft + filaments(1);
-    const auto share = static_cast<float>(both > 0 ? weft / both : 0.5);
+    const auto share = static_cast<float>(lobes.weft_share());
     return {share, 1 - share};
 }
 

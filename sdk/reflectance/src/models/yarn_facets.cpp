@@ -1,6 +1,7 @@
 #include "tsuya/sdk/detail/yarn_facets.h"
 
-#include <numbers>
+#include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
@@ -13,14 +14,6 @@ constexpr double kFarthest = 8; // in standard deviations: beyond, a lobe has 1e
 // In 1/sr, added: where there is no filament, rounding would decide of nothing or next to nothing
 constexpr double kLeast = 1e-7;
 
-double total(const YarnLobes &lobes) {
-    double sum = 0;
-    for (const auto &system : lobes.surface)
-        for (const double surface : system)
-            sum += surface;
-    return sum;
-}
-
 bool is_mirrored(const YarnLobes &lobes) {
     return std::all_of(lobes.surface.begin(), lobes.surface.end(), [](const auto &surface) {
         return std::equal(surface.begin(), surface.end(), surface.rbegin());
@@ -30,7 +23,8 @@ bool is_mirrored(const YarnLobes &lobes) {
 } // namespace
 
 YarnFacets::YarnFacets(const YarnLobes &lobes, double roughness)
-    : roughness_(static_cast<float>(roughness)), mirrored_(is_mirrored(lobes)), all_(total(lobes)) {
+    : roughness_(static_cast<float>(roughness)), mirrored_(is_mirrored(lobes)),
+      all_(lobes.filaments(0) + lobes.filaments(1)) {
     list_slopes(lobes);
     tabulate(lobes);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "models/slope_lobes.h"
 #include "tsuya/sdk/angle.h"
@@ -9,12 +10,21 @@
 namespace tsuya {
 namespace {
 
-constexpr double kStep = 2 * kPi / 180;
+constexpr double kStep = 2 * kDegree;
 constexpr int kMiddle = kYarnSlopes / 2;
 
 } // namespace
 
 double yarn_slope(int k) { return (k - kMiddle) * kStep; }
+
+double YarnLobes::filaments(std::size_t axis) const {
+    return std::accumulate(surface[axis].begin(), surface[axis].end(), 0.0);
+}
+
+double YarnLobes::weft_share() const {
+    const double weft = filaments(0), both = weft + filaments(1);
+    return both > 0 ? weft / both : 0.5;
+}
 
 std::array<double, kYarnSlopes> YarnLobes::depth(std::size_t axis) const {
     std::array<double, kYarnSlopes> made{};

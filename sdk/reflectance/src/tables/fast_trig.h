@@ -10,7 +10,6 @@ namespace tsuya {
 
 // Angle in [0, pi] of a point with sine >= 0; 0 at the origin.
 inline float angle_of(float sine, float cosine) {
-    constexpr float kHalfPi = 1.57079633f;
     const float x = std::fabs(cosine);
     const float larger = sine > x ? sine : x, smaller = sine > x ? x : sine;
     const float t = larger > 0 ? smaller / larger : 0.0f, t2 = t * t;
@@ -24,7 +23,7 @@ inline float angle_of(float sine, float cosine) {
     p = p * t2 - 0.333330363f;
     p = p * t2 + 1.0f;
     float angle = t * p;
-    angle = sine > x ? kHalfPi - angle : angle;
+    angle = sine > x ? kHalfPiF - angle : angle;
     return cosine < 0 ? kPiF - angle : angle;
 }
 

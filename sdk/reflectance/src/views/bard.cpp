@@ -1,7 +1,6 @@
 #include "tsuya/sdk/bard.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
+#include "views/mirror_views.h"
 #include "views/stop.h"
 
 namespace tsuya {
@@ -22,7 +22,6 @@ constexpr std::size_t kMinViews = 6;
 constexpr double kMinReach = 20 * kDegree;
 // Values below this share of the peak, zeros among them, count as this share: log needs a floor.
 constexpr double kFloor = 1e-6;
-constexpr double kSameView = 1e-6;
 constexpr double kBright = 0.01;        // of the peak: darker views tell nothing of the symmetry
 constexpr double kContradiction = 0.2;  // log10, root mean square: a factor of 1.6
 constexpr double kLargestAlbedo = 2;    // some slack for what lies beyond the views
@@ -33,27 +32,6 @@ double kernel(double dx, double dy) {
     const double r = std::sqrt(dx * dx + dy * dy);
     const double s = std::max(0.0, 1.0 - r), s2 = s * s;
     return s2 * s2 * (4.0 * r + 1.0);
-}
-
-// The images of a point of the disk under the symmetry; the first is the point.
-std::array<glm::dvec2, 4> images(double x, double y, Symmetry symmetry, int &count) {
-    count = symmetry == Symmetry::orthotropic ? 4 : symmetry == Symmetry::half_turn ? 2 : 1;
-    return {{{x, y}, {-x, -y}, {x, -y}, {-x, y}}};
-}
-
-// Equal-area disk: radius sqrt(2) sin(theta/2), 1 at the horizon.
-glm::dvec2 disk_of(double theta, double phi) {
-    const double r = std::numbers::sqrt2 * std::sin(theta / 2);
-    return {r * std::cos(phi), r * std::sin(phi)};
-}
-
-// Whether the symmetry makes two points of the disk one; also on the edges of the domain, where
-// rounding would fold them to opposite ends.
-bool is_same_view(glm::dvec2 a, glm::dvec2 b, Symmetry symmetry) {
-    int count = 0;
-    const auto image = images(a.x, a.y, symmetry, count);
-    return std::any_of(image.begin(), image.begin() + count,
-                       [&](glm::dvec2 p) { return glm::length(p - b) < kSameView; });
 }
 
 // Refuses views that leave most azimuths unseen: less than a third of what the symmetry leaves.
@@ -89,27 +67,6 @@ void check_azimuths(const std::vector<BardView> &views, Symmetry symmetry,
                      where, "expected views over a third of them or more"});
 }
 
-// Views that are one by the symmetry.
-struct Group {
-    glm::dvec2 p; // of the disk
-    std::vector<const BardView *> members;
-};
-
-std::vector<Group> mirror_groups(const std::vector<BardView> &views, Symmetry symmetry) {
-    std::vector<Group> groups;
-    for (const BardView &view : views) {
-        const glm::dvec2 p = disk_of(view.theta, view.phi);
-        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group &g) {
-            return is_same_view(g.p, p, symmetry);
-        });
-        if (same == groups.end())
-            groups.push_back({p, {&view}});
-        else
-            same->members.push_back(&view);
-    }
-    return groups;
-}
-
 struct WeightedSquares {
     double sum = 0, weights = 0;
 
@@ -131,12 +88,12 @@ struct Averages {
 Averages average_mirrors(const std::vector<BardView> &views, Symmetry symmetry, double peak) {
     const double floor = std::max(peak * kFloor, std::numeric_limits<double>::min());
     Averages averages;
-    for (const Group &group : mirror_groups(views, symmetry)) {
+    for (const MirrorGroup &group : mirror_groups(views, symmetry)) {
         const auto count = static_cast<double>(group.members.size());
         double mean = 0, variance = 0;
-        for (const BardView *v : group.members) {
-            mean += v->brdf_per_sr / count;
-            variance += v->sigma_per_sr * v->sigma_per_sr;
+        for (const std::size_t i : group.members) {
+            mean += views[i].brdf_per_sr / count;
+            variance += views[i].sigma_per_sr * views[i].sigma_per_sr;
         }
         mean = std::max(mean, floor);
         averages.at.push_back(group.p);
@@ -144,9 +101,10 @@ Averages average_mirrors(const std::vector<BardView> &views, Symmetry symmetry, 
         averages.relative_sigma.push_back(std::sqrt(variance) / (mean * count));
         if (group.members.size() == 1)
             continue;
-        for (const BardView *v : group.members) {
-            const double d = std::log10(std::max(v->brdf_per_sr, floor) / mean);
-            const bool noise = std::abs(v->brdf_per_sr - mean) < 4 * v->sigma_per_sr;
+        for (const std::size_t i : group.members) {
+            const double value = views[i].brdf_per_sr;
+            const double d = std::log10(std::max(value, floor) / mean);
+            const bool noise = std::abs(value - mean) < 4 * views[i].sigma_per_sr;
             averages.mirrored.add(1, d * d);
             // By value, or many views of a level ground would hide a highlight that is turned
             if (mean > kBright * peak)

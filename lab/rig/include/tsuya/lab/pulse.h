@@ -47,7 +47,7 @@ struct Rig {
     OutputLine &shutter;
     Clock &clock;
     OutputLine *lamp = nullptr;
-    std::function<void(const PulseTiming &)> on_pulse{}; ///< told of each pulse that was done
+    std::function<void(const PulseTiming &)> on_pulse{}; ///< called after each pulse
 };
 
 /// A whole train as it was.
@@ -86,7 +86,7 @@ class PulsesInterrupted : public Interrupted {
 
 /// Lamp on, warm-up, the pulses, lamp off. Lamp and shutter are inactive when this returns or
 /// throws, whatever happened; if one cannot be driven off, the Error says so beside the first
-/// cause. `progress` is told after each pulse, on the thread that times them: give one that can
+/// cause. `progress` is called after each pulse, on the thread that times them: give one that can
 /// block through a ProgressRelay.
 ///
 /// Throws Error for a train out of range, PulsesFailed for a line that fails or a pulse that opened

@@ -63,7 +63,7 @@ class SimulatedLine final : public OutputLine {
     std::vector<Transition> transitions_;
 };
 
-/// An input line whose changes are told by the program: call `change` from an event of the clock.
+/// An input line whose changes are made by the program: call `change` from an event of the clock.
 class SimulatedInput final : public InputLine {
   public:
     /// \param clock stamps the changes; must outlive the line

@@ -17,7 +17,7 @@ namespace tsuya::lab {
 struct CommandRun {
     Seconds timeout{60};                     ///< then it and all that it started are killed
     const std::atomic<bool> *stop = nullptr; ///< may be null
-    /// Told the process group while the program runs, and 0 afterwards; may be empty.
+    /// Called with the process group while the program runs, and 0 afterwards; may be empty.
     std::function<void(int group)> on_group{};
 };
 

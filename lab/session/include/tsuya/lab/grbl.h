@@ -15,7 +15,7 @@ namespace tsuya::lab {
 struct GrblStatus {
     std::string state{};              ///< `Idle`, `Run`, `Alarm`...
     std::array<double, 6> position{}; ///< of the axes X Y Z A B C, in the units of the machine
-    std::size_t axes = 0;             ///< how many it tells
+    std::size_t axes = 0;             ///< how many it reports
 };
 
 /// Takes `<Idle|MPos:1.000,0.000,0.000|FS:0,0>` apart; false if it is no such line.

@@ -17,7 +17,7 @@ struct Moment {
     double time_s = 0;     ///< seconds since 1970, which someone may set
 };
 
-/// Tells the moment. A program without hardware has its own.
+/// The clock. A program without hardware has its own.
 using Moments = std::function<Moment()>;
 
 /// The moment on this computer's own clocks.
@@ -46,7 +46,7 @@ class LampLog {
     LampLog(const std::filesystem::path &file, std::string serial, Moments moments,
             int strikes = 0);
 
-    /// As the file and the changes since tell.
+    /// As the file and the changes since have it.
     const LampState &state() const { return state_; }
     /// Notes that the lamp is lit. \return its state after that
     const LampState &light();

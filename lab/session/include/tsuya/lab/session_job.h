@@ -19,7 +19,7 @@ struct SessionJob {
     bool wait = false;              ///< for a lamp that may not be lit yet
     int tries = 3;                  ///< of a frame or a movement
     int library_threads = 0;        ///< as of Supervision
-    /// Told what the operator is to do; called in the calling process, must not block.
+    /// Called with what the operator is to do; called in the calling process, must not block.
     std::function<void(const std::string &what)> ask{};
     /// Asked again and again whether the operator has done it; must not block. A session ends where
     /// the operator has not for the lamp's hold time. With neither, axes and samples that the

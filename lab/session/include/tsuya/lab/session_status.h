@@ -9,7 +9,7 @@
 
 namespace tsuya::lab {
 
-/// What the folder and the logs of its rig tell.
+/// What the folder and the logs of its rig report.
 struct SessionStatus {
     std::size_t planned = 0, counted = 0, rejected = 0; ///< frames; pictures that were put aside
     int runs = 0;                                       ///< of the program on this session

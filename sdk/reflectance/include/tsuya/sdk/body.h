@@ -55,8 +55,8 @@ class BodyCore {
     void close_energy(const std::function<float(const glm::vec3 &)> &surface_albedo,
                       const Progress &progress);
 
-    // Shares of the samples, see body.cpp; the tables are filled without cones, in a quarter of the
-    // time
+    // Shares of the samples: these fill the tables, in half the time; the constructor ends with
+    // those of body.cpp
     float by_cosine_ = 0.2f, by_cones_ = 0;
     YarnFacets facets_{};
     YarnCones cones_{};

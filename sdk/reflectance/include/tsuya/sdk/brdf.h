@@ -111,14 +111,6 @@ class Brdf {
     float albedo_of_view(const glm::vec3 &to_viewer) const {
         return visit([&](const auto &m) { return m.albedo_of_view(to_viewer); });
     }
-    /// The model claims f(l, v) = f(v, l).
-    bool is_reciprocal() const {
-        return visit([](const auto &m) { return m.kReciprocal; });
-    }
-    /// The model claims an albedo of at most 1 for every light.
-    bool is_energy_limited() const {
-        return visit([](const auto &m) { return m.kEnergyLimited; });
-    }
 
   private:
     Models models_;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Tells the dye of a cloth from the reflectance of its surface, by a table with several channels.
+/// Separates the dye of a cloth from the reflectance of its surface, by a table with several
+/// channels.
 ///
 ///     const DyedCloth cloth = separate_dye(read_reflectance_file("crimson.csv"), "crimson.csv");
 ///     fabric.specular = CarriedViews{.bard = Bard::fit(cloth.surface, "crimson.csv")};

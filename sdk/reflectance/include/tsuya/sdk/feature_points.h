@@ -14,7 +14,7 @@
 
 namespace tsuya {
 
-/// A point of the BARD by which [Takeda] tells a fabric.
+/// A point of the BARD by which [Takeda] describes a fabric.
 struct FeaturePoint {
     std::string_view name;
     double theta = 0, phi = 0; ///< of the view, radians

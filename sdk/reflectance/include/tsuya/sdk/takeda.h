@@ -54,8 +54,6 @@ class TakedaCore {
 
     /// Largest albedo_of_light before it was limited.
     float unlimited_albedo() const { return unlimited_albedo_; }
-    /// Memory of the tables.
-    std::size_t table_bytes() const;
 
   private:
     float limit(const glm::vec3 &to_light) const {

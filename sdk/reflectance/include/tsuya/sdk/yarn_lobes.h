@@ -14,7 +14,7 @@
 
 namespace tsuya {
 
-/// Number of slopes that are told apart: every 2 degrees from -48 to 48.
+/// Number of slopes that are kept apart: every 2 degrees from -48 to 48.
 inline constexpr int kYarnSlopes = 49;
 /// Slope of the k-th, radians.
 double yarn_slope(int k);
@@ -41,6 +41,10 @@ struct YarnLobes {
     /// Depth below its neighbours of a yarn at each slope, in widths of a yarn: `dive` times the
     /// share of its climb that lies between level and that slope.
     std::array<double, kYarnSlopes> depth(std::size_t axis) const;
+    /// Surface of all filaments of the weft (0) or the warp (1) over that of the cloth.
+    double filaments(std::size_t axis) const;
+    /// Share of the weft in the filaments of both systems; 0.5 where there are none.
+    double weft_share() const;
     bool operator==(const YarnLobes &) const = default;
 };
 

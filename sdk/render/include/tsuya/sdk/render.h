@@ -32,7 +32,7 @@ struct StopRule {
 
 struct RenderResult;
 
-/// What `render` is told beside the scene.
+/// Settings of `render` beside the scene.
 struct RenderSettings {
     StopRule stop{};
     int channels = 16;    ///< 8, 16 or 32
@@ -77,7 +77,7 @@ struct RenderStats {
     bool interrupted = false;
 };
 
-/// The light transport, what was done for it, and what to tell the user.
+/// The light transport, what was done for it, and warnings for the user.
 struct RenderResult {
     SpectralImage image{};
     RenderStats stats{};

@@ -11,6 +11,8 @@ namespace tsuya {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr float kPiF = std::numbers::pi_v<float>;
+inline constexpr double kHalfPi = kPi / 2;
+inline constexpr float kHalfPiF = kPiF / 2;
 inline constexpr double kDegree = kPi / 180; ///< radians of one degree
 
 /// The unit direction `theta` from the normal z and `phi` from x about it, both in radians. Within

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How long work tells how far it is, and how it is stopped.
+/// Progress of long work, and how it is stopped.
 
 #include <atomic>
 #include <functional>

@@ -35,7 +35,7 @@ namespace tsuya {
 /// One column of values with the directions, keys and symmetry of the file.
 struct TableChannel {
     std::string name{}; ///< `r`, `g`, `b` or such as `550nm`; empty for `brdf_per_sr`
-    std::optional<double> wavelength_nm{}; ///< that the name tells
+    std::optional<double> wavelength_nm{}; ///< that the name states
     ReflectanceTable table{};
 };
 

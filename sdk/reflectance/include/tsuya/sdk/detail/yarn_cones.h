@@ -46,6 +46,8 @@ class YarnCones {
     /// Of a direction, the sine with the yarn: nearer to it nothing is sampled, where the density
     /// would grow without bound.
     static constexpr float kLeastAcross = 0.1f;
+    /// Four halves: the height of a system's row, the scales of both tables, half the thetas' sum.
+    static constexpr float kScale = 1.0f / 16;
 
     float density(std::size_t axis, float along, float beside, float up, float fixed_along,
                   float fixed_beside, float turned) const;
@@ -56,22 +58,22 @@ class YarnCones {
 
 inline float YarnCones::density(std::size_t axis, float along, float beside, float up,
                                 float fixed_along, float fixed_beside, float turned) const {
-    const float over_across =
-        1 / std::sqrt(std::max(1 - along * along, kLeastAcross * kLeastAcross));
+    const float across2 = 1 - along * along;
+    if (across2 <= kLeastAcross * kLeastAcross)
+        return 0;
+    const float over_across = 1 / std::sqrt(across2);
     const float fixed_across = std::sqrt(std::max(1 - fixed_along * fixed_along, kLeast));
     // The tangent of half the sum of the thetas, and with it that of the normal
     const float half = (along + fixed_along) * over_across / (1 + fixed_across * over_across);
     const float over_turn = 1 / std::sqrt(std::max(0.5f + 0.5f * turned, kLeast));
     const float tangent = half * over_turn;
     const float over_secant = 1 / std::sqrt(1 + tangent * tangent);
-    if (1 - along * along <= kLeastAcross * kLeastAcross)
-        return 0;
     const float at_sine =
         sines_.density({0.5f + 0.5f * tangent * over_secant, axis == 0 ? 0.0f : 0.75f});
     const float at_turn = turns_.density_along(0.5f + 0.5f * fixed_beside / fixed_across,
                                                0.5f + 0.5f * beside * over_across);
     return at_sine * at_turn * (over_secant * over_secant * over_secant) * (1 + half * half) *
-           over_turn * (over_across * over_across) * up * 0.0625f;
+           over_turn * (over_across * over_across) * up * kScale;
 }
 
 } // namespace tsuya

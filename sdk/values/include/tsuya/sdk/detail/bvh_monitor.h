@@ -15,7 +15,7 @@ class BvhMonitor {
   public:
     explicit BvhMonitor(const Progress &progress) : progress_(progress) {}
 
-    /// An RTCProgressMonitorFunction: tells how far the build is as the stage "prepare".
+    /// An RTCProgressMonitorFunction: reports how far the build is as the stage "prepare".
     /// \param monitor a BvhMonitor
     /// \return whether to go on
     static bool ask(void *monitor, double fraction) {

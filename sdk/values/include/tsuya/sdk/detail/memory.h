@@ -10,7 +10,7 @@ namespace tsuya::detail {
 
 /// Bytes that this process can still take: the least of the machine's available memory with its
 /// free swap, what its control groups leave it (their file caches count as free), and RLIMIT_AS.
-/// The largest number where the system tells none of them.
+/// The largest number where the system reports none of them.
 /// \param root of the file system: proc and sys/fs/cgroup are read below it
 std::uint64_t available_memory(const std::filesystem::path &root = "/");
 
