@@ -1,9 +1,11 @@
 #include "tsuya/lab/session_pictures.h"
 
 #include <regex>
+#include <set>
 
 #include <gtest/gtest.h>
 
+#include "crowded_places.h"
 #include "drawing.h"
 #include "lab/virtual_session.h"
 #include "samples/scratch.h"
@@ -47,6 +49,32 @@ TEST(SessionPictures, APlansViewsStandWhereTheyAreSeen) {
     ASSERT_TRUE(std::regex_search(svg, place, seen));
     EXPECT_NEAR(std::stod(place[1]), 266, 0.01);
     EXPECT_NEAR(std::stod(place[2]), 326 - 250 * 60 / 90.0, 0.01);
+}
+
+TEST(SessionPictures, CrossesThatWouldOverlapAreOnePatchWithTheirNumber) {
+    const Plan plan =
+        make_plan(read_rig_file(TSUYA_RIG_SAMPLE),
+                  {.directions = views_named("few:5", Symmetry::half_turn), .views = "few:5"});
+    const std::string svg = plan_picture(plan);
+    // About the lamp, 36 views of one circle with a radius of 5 degrees, and its middle
+    EXPECT_EQ(count(svg, "<title>geometry.dead_cone_deg"), 1u);
+    EXPECT_NE(svg.find("; 37 views here</title>"), std::string::npos);
+    EXPECT_EQ(count(svg, ">37 left out</text>"), 1u);
+    EXPECT_NE(svg.find("shaded: crosses that would overlap"), std::string::npos);
+    // At 85 degrees they are apart.
+    EXPECT_EQ(count(svg, "<title>axes.camera"), 36u);
+    EXPECT_EQ(count(svg, "36 left out"), 0u);
+    EXPECT_EQ(plan_picture(sample_plan()).find("shaded"), std::string::npos);
+}
+
+TEST(SessionPictures, PlacesAreCrowdedWhereTwoOverlap) {
+    const std::vector<glm::dvec2> places{{0, 0}, {10, 0}, {1.5, 0}, {20, 0}, {22.5, 0}, {4, 0}};
+    const Crowds sorted = sort_out_crowds(places, 2, 3);
+    ASSERT_EQ(sorted.crowds.size(), 1u) << "20 and 22.5 are neighbours that do not overlap";
+    EXPECT_EQ(std::set(sorted.crowds[0].begin(), sorted.crowds[0].end()),
+              (std::set<std::size_t>{0, 2, 5}));
+    EXPECT_EQ(std::set(sorted.alone.begin(), sorted.alone.end()), (std::set<std::size_t>{1, 3, 4}));
+    EXPECT_TRUE(sort_out_crowds({}, 2, 3).crowds.empty());
 }
 
 TEST(SessionPictures, ManyLightsHaveDisksOfTheirOwn) {

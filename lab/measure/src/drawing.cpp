@@ -121,6 +121,24 @@ void Drawing::cross(const glm::dvec2 &centre, double radius, std::string_view co
         told);
 }
 
+void Drawing::patch(const std::vector<glm::dvec2> &centres, double radius, std::string_view colour,
+                    std::string_view told) {
+    // A stroke of no length with round ends is a dot; one path paints where they overlap once.
+    std::string dots;
+    for (const glm::dvec2 &centre : centres)
+        dots += "M" + pair(centre) + "h0";
+    const auto layer = [&](double r, std::string_view paint, const std::string &more) {
+        add("<path" + attribute("d", dots) + stroke({.colour = paint, .width = 2 * r}) + more, {});
+    };
+    parts_ += "<g stroke-linecap=\"round\">";
+    if (!told.empty())
+        parts_ += "<title>" + escaped(told) + "</title>";
+    layer(radius, colour, "");
+    layer(radius - 1, "#ffffff", "");
+    layer(radius - 1, colour, attribute("stroke-opacity", "0.25"));
+    parts_ += "</g>\n";
+}
+
 void Drawing::write(const glm::dvec2 &at, std::string_view text, const Words &words) {
     parts_ += "<text" + attribute("x", place(at.x)) + attribute("y", place(at.y)) +
               attribute("font-size", place(words.size)) + attribute("text-anchor", words.anchor) +

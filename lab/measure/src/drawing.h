@@ -40,6 +40,9 @@ class Drawing {
                 std::string_view told = {});
     void cross(const glm::dvec2 &centre, double radius, std::string_view colour,
                std::string_view told = {});
+    /// What dots of the radius at all these places cover, tinted and outlined.
+    void patch(const std::vector<glm::dvec2> &centres, double radius, std::string_view colour,
+               std::string_view told = {});
     void write(const glm::dvec2 &at, std::string_view text, const Words &words = {});
 
     /// The whole picture on white.

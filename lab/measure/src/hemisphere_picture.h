@@ -43,7 +43,8 @@ struct HemispherePicture {
     bool joined = false;
 };
 
-/// SVG. Of more than 24 directions of light the first are drawn, which the title says.
+/// SVG. Crosses of one colour that would overlap are a tinted patch, and their number stands beside
+/// the disk. Of more than 24 directions of light the first are drawn, which the title says.
 std::string draw(const HemispherePicture &picture);
 
 } // namespace tsuya::lab
