@@ -128,14 +128,19 @@ for line in interlock estop; do
     "$session" reset fast.rig.toml "tried"
 done
 
-# The work with a lit lamp dies; a signal ends a session.
-for signal in KILL SEGV; do
+# The work with a lit lamp dies or hangs; a signal ends a session.
+for signal in KILL STOP SEGV; do
     start_run fast $([ $signal = SEGV ] && echo 55 || echo 195)
+    before=$(grep -c '"kind":"ok"' fast/journal.jsonl)
     kill -s "$signal" "$worker"
     wait "$program"
     check "SIG$signal of the worker: status 1" [ $? = 1 ]
     check "SIG$signal of the worker: the lamp is driven off within 0.25 s" within lamp 0 "$start" 0.25
     check "SIG$signal of the worker: the shutter, too" within shutter 0 "$start" 0.25
+    check "SIG$signal of the worker: it is gone" [ ! -e "/proc/$worker" ]
+    check "SIG$signal of the worker: is told" says 'supervisor: the work \(hung\|was killed\)'
+    check "SIG$signal of the worker: the picture does not count" \
+        [ "$(grep -c '"kind":"ok"' fast/journal.jsonl)" = "$before" ]
     sleep 1000
     fresh_trace
     run fast # since when it has been off, nobody knows
@@ -153,7 +158,7 @@ for signal in TERM INT HUP QUIT; do
     sleep 1000
 done
 check "the log tells of lamps that were lit when a program was killed" \
-    [ "$(grep -c 'the program ended while the lamp was lit' fast.lamp.log)" = 2 ]
+    [ "$(grep -c 'the program ended while the lamp was lit' fast.lamp.log)" = 3 ]
 run fast
 check "the session is finished in the end" [ $? = 0 ]
 cat said

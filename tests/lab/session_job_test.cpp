@@ -52,6 +52,8 @@ SessionJob dry_job(const SessionBed &bed) {
             }};
 }
 
+constexpr std::chrono::seconds kSilence{2}; // a busy computer is no fault of the work
+
 TEST(SessionJobs, ADryRunTakesNoTimeAndGivesTheSameAgain) {
     const SessionBed a, b;
     a.create();
@@ -114,7 +116,8 @@ TEST(SessionJobs, RunProgramsInASupervisedProcess) {
         .report = [&](std::string_view stage,
                       double) { stop = stop || stage.starts_with("white frames"); },
         .stop = &stop};
-    EXPECT_THROW(run_session_job({.folder = bed.folder(), .read = read_picture}, progress),
+    EXPECT_THROW(run_session_job(
+                     {.folder = bed.folder(), .read = read_picture, .silence = kSilence}, progress),
                  Interrupted);
     const Session session = read_session(bed.folder());
     ASSERT_GE(session.warm_up.size(), 2u);
@@ -127,7 +130,7 @@ TEST(SessionJobs, NeedAnOperatorWhereTheRigDoes) {
     SessionBed bed;
     create_quick(bed);
     try {
-        run_session_job({.folder = bed.folder(), .read = read_picture});
+        run_session_job({.folder = bed.folder(), .read = read_picture, .silence = kSilence});
         FAIL() << "no error";
     } catch (const Error &error) {
         EXPECT_EQ(error.problems()[0].what,
@@ -139,6 +142,7 @@ TEST(SessionJobs, NeedAnOperatorWhereTheRigDoes) {
     EXPECT_THROW(run_session_job(
                      {.folder = bed.folder(),
                       .read = read_picture,
+                      .silence = kSilence,
                       .ask = [&](const std::string &what) { asked.push_back(what); },
                       .answered = [&] { return ++answers > 2; }},
                      {.report = [&](std::string_view stage,
@@ -155,6 +159,7 @@ TEST(SessionJobs, EndWhereTheOperatorDoesNotAnswer) {
     try {
         run_session_job({.folder = bed.folder(),
                          .read = read_picture,
+                         .silence = kSilence,
                          .ask = [](const std::string &) {},
                          .answered = [] { return false; }});
         FAIL() << "no error";

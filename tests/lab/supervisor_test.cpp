@@ -168,6 +168,35 @@ TEST(Supervisor, WorkThatHangsIsKilled) {
               std::string::npos);
 }
 
+/// Work that computes for so long.
+void stay_silent(std::chrono::nanoseconds time) {
+    SteadyClock clock;
+    static_cast<void>(clock.sleep_until(clock.now() + time, nullptr));
+}
+
+TEST(Supervisor, WorkThatWaitsMayNotBeSilentAsLongAsWorkThatComputes) {
+    SupervisedLines lines;
+    lines.supervision.silence_at_work = 5s;
+    const auto compute = [](Worker &worker) {
+        stay_silent(400ms);
+        sleep_for(worker, 10ms);
+        stay_silent(400ms);
+    };
+    EXPECT_EQ(lines.error_of(compute), "no error");
+    const auto hang = [](Worker &worker) {
+        sleep_for(worker, 10ms);
+        const Waiting outer(worker.clock());
+        sleep_for(worker, 10ms);
+        { const Waiting inner(worker.clock()); }
+        stay_silent(60s);
+    };
+    SteadyClock clock;
+    const auto begin = clock.now();
+    EXPECT_NE(lines.error_of(hang).find("the work hung"), std::string::npos);
+    EXPECT_LT(clock.now() - begin, 4s) << "of the 5 s of work that computes";
+    lines.expect_driven_off_twice();
+}
+
 TEST(Supervisor, WorkThatDiesIsNamed) {
     SupervisedLines lines;
     for (const int signal : {SIGKILL, SIGSEGV, SIGABRT}) {
@@ -279,6 +308,11 @@ TEST(Supervisor, RefusesThreadsAndSilencesOutOfRange) {
         EXPECT_NE(lines.error_of([](Worker &) {}).find("silence: is "), std::string::npos);
     }
     lines.supervision.silence = 200ms;
+    for (const auto silence : {199ms, 5001ms}) {
+        lines.supervision.silence_at_work = silence;
+        EXPECT_NE(lines.error_of([](Worker &) {}).find("silence_at_work: is "), std::string::npos);
+    }
+    lines.supervision.silence_at_work = 0ms;
     std::atomic<bool> end{false};
     std::thread other([&] {
         while (!end)

@@ -49,6 +49,11 @@ class Supervisor {
     void look_at_stop();
     void look_at_lines();
     void take(const Frame &frame);
+    /// How long the work may be silent in what it does now.
+    milliseconds patience() const {
+        return waits_ ? supervision_.silence
+                      : std::max(supervision_.silence, supervision_.silence_at_work);
+    }
     std::vector<Problem> drive_off() const { return OffGuard(supervision_.lines).drive_off(); }
     void wait_for_child();
 
@@ -61,6 +66,7 @@ class Supervisor {
     nanoseconds last_beat_{clock_.now()};
     nanoseconds last_check_{last_beat_};
     nanoseconds stopped_at_{0};
+    bool waits_ = false; ///< on its clock
     bool stopping_ = false, ended_ = false, returned_ = false, pulse_ = false;
     std::vector<Problem> problems_{};
     std::string interrupted_{};
@@ -78,7 +84,7 @@ void Supervisor::watch() {
         look_at_stop();
         look_at_lines();
         if (const nanoseconds silent = clock_.now() - last_beat_;
-            !stopping_ && silent > supervision_.silence) {
+            !stopping_ && silent > patience()) {
             problems_.push_back({.what = "the work hung: nothing was heard of it for " +
                                          std::to_string(silent / milliseconds(1)) +
                                          " ms; it was killed",
@@ -95,6 +101,9 @@ void Supervisor::take(const Frame &frame) {
     case FrameKind::beat:
         if (supervision_.heartbeat)
             supervision_.heartbeat->set(pulse_ = !pulse_);
+        break;
+    case FrameKind::waits:
+        waits_ = frame.payload == std::string_view("\1");
         break;
     case FrameKind::progress: {
         double fraction = 0;
@@ -218,6 +227,11 @@ void check_supervision(const Supervision &supervision) {
     problems.need(supervision.silence >= kMinSilence && supervision.silence <= kMaxSilence,
                   "is " + std::to_string(supervision.silence.count()) + " ms", "silence",
                   "100 ms to 5 s");
+    problems.need(supervision.silence_at_work == milliseconds(0) ||
+                      (supervision.silence_at_work >= supervision.silence &&
+                       supervision.silence_at_work <= kMaxSilence),
+                  "is " + std::to_string(supervision.silence_at_work.count()) + " ms",
+                  "silence_at_work", "0, or from `silence` to 5 s");
     const int threads = other_threads();
     problems.need(threads <= supervision.library_threads,
                   "the program has " + std::to_string(threads + 1) + " threads", "supervisor",

@@ -49,6 +49,7 @@ Progress Worker::progress() {
 
 bool Worker::BeatingClock::sleep_until(std::chrono::nanoseconds deadline,
                                        const std::atomic<bool> *stop) {
+    const Waiting waiting(*this);
     for (;;) {
         worker_.beat();
         const auto wake = std::min<std::chrono::nanoseconds>(deadline, now() + kBeat / 2);
@@ -57,6 +58,13 @@ bool Worker::BeatingClock::sleep_until(std::chrono::nanoseconds deadline,
         if (wake == deadline)
             return true;
     }
+}
+
+void Worker::BeatingClock::wait_more(bool begins) {
+    const int before = waits_;
+    waits_ += begins ? 1 : -1;
+    if ((before > 0) != (waits_ > 0))
+        worker_.pipes_.write(FrameKind::waits, {begins ? "\1" : "\0", 1}, false);
 }
 
 namespace detail {

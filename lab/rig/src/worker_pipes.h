@@ -10,6 +10,7 @@ namespace tsuya::lab::detail {
 /// What a frame says.
 enum class FrameKind : char {
     beat,
+    waits,       ///< one byte: whether the work waits on its clock from now on
     progress,    ///< fraction as double, then the stage
     message,     ///< of Worker::send
     group,       ///< the process group of a command that runs, an int; 0: none does

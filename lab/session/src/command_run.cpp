@@ -136,7 +136,8 @@ std::vector<std::string> filled_in(const std::vector<std::string> &command,
 }
 
 void run_command(const std::vector<std::string> &words, Clock &clock, const CommandRun &how) {
-    Child child(words, how);
+    Child child(words, how); // which may have to be read from a slow disk first
+    const Waiting waiting(clock);
     const auto deadline = clock.now() + std::chrono::round<std::chrono::nanoseconds>(how.timeout);
     while (!child.ended()) {
         if (clock.now() >= deadline)

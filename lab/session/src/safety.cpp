@@ -7,6 +7,7 @@
 namespace tsuya::lab {
 
 bool SafetyClock::sleep_until(std::chrono::nanoseconds deadline, const std::atomic<bool> *stop) {
+    const Waiting waiting(clock_);
     for (;;) {
         check();
         const std::chrono::nanoseconds wake =

@@ -15,8 +15,8 @@
 namespace tsuya::lab {
 namespace {
 
-// Reading a large picture takes long, and does not beat.
-constexpr std::chrono::milliseconds kSilence{5000};
+// To read a large picture, or to store on a slow card, takes long and does not beat.
+constexpr std::chrono::milliseconds kSilenceAtWork{5000};
 constexpr std::chrono::milliseconds kAskAgain{100}; // whether the operator is ready
 constexpr double kDryRunEpoch_s = 1.7e9; // of the virtual clock: equal runs have equal times
 constexpr double kBetweenDryRuns_s = 86400;
@@ -115,7 +115,8 @@ SessionResult run_for_real(const SessionJob &job, const std::filesystem::path &r
     OutputLine *const shutter = lines.output(LineRole::shutter);
     const Supervision supervision{
         .lines = {lamp, shutter, lines.output(LineRole::half_press)},
-        .silence = kSilence,
+        .silence = job.silence,
+        .silence_at_work = kSilenceAtWork,
         .heartbeat = lines.output(LineRole::heartbeat),
         .receive = [&](std::string_view message) { people.receive(message); },
         .library_threads = job.library_threads};

@@ -22,6 +22,21 @@ class Clock {
     /// \return true if the deadline was reached with `stop` not set
     [[nodiscard]] virtual bool sleep_until(std::chrono::nanoseconds deadline,
                                            const std::atomic<bool> *stop) = 0;
+    /// Told by Waiting that a block of it begins or ends. Most clocks need not know.
+    virtual void wait_more(bool /*begins*/) {}
+};
+
+/// A block of code that does nothing but wait on a clock, in several sleeps. A supervisor of work
+/// that waits notices sooner that it hangs.
+class Waiting {
+  public:
+    explicit Waiting(Clock &clock) : clock_(clock) { clock_.wait_more(true); }
+    ~Waiting() { clock_.wait_more(false); }
+    Waiting(const Waiting &) = delete;
+    Waiting &operator=(const Waiting &) = delete;
+
+  private:
+    Clock &clock_;
 };
 
 /// The computer's monotonic clock; not set back or forth by the time of day. Deadlines are

@@ -23,6 +23,9 @@ struct Supervision {
     std::vector<OutputLine *> lines{};
     /// The work counts as hanging when it has not beaten for so long; 100 ms to 5 s.
     std::chrono::milliseconds silence{200};
+    /// The same while it does anything but wait on its clock, such as to read a large picture or to
+    /// store on a slow disk; `silence` to 5 s. 0: `silence`.
+    std::chrono::milliseconds silence_at_work{0};
     /// A line that is toggled with each beat, for a relay that cuts the lamp when it stands still.
     OutputLine *heartbeat = nullptr;
     /// Called in the calling process with what the work has sent, in order; may be empty. What was
@@ -64,9 +67,11 @@ class Worker {
         std::chrono::nanoseconds now() override { return steady_.now(); }
         [[nodiscard]] bool sleep_until(std::chrono::nanoseconds deadline,
                                        const std::atomic<bool> *stop) override;
+        void wait_more(bool begins) override;
 
       private:
         Worker &worker_;
+        int waits_ = 0; ///< blocks of Waiting, one in another
         SteadyClock steady_;
     };
 

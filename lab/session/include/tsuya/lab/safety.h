@@ -40,6 +40,7 @@ class SafetyClock final : public Clock {
     /// Throws SessionFault within kLook of a change that check() would tell.
     [[nodiscard]] bool sleep_until(std::chrono::nanoseconds deadline,
                                    const std::atomic<bool> *stop) override;
+    void wait_more(bool begins) override { clock_.wait_more(begins); }
     /// Throws SessionFault if the housing is or was open, the stop is or was pressed since the last
     /// look, or an input cannot be read.
     void check();

@@ -19,6 +19,8 @@ struct SessionJob {
     bool wait = false;              ///< for a lamp that may not be lit yet
     int tries = 3;                  ///< of a frame or a movement
     int library_threads = 0;        ///< as of Supervision
+    /// As of Supervision, while something is waited for; 5 s while pictures are read and stored.
+    std::chrono::milliseconds silence{200};
     /// Called with what the operator is to do; called in the calling process, must not block.
     std::function<void(const std::string &what)> ask{};
     /// Asked again and again whether the operator has done it; must not block. A session ends where
