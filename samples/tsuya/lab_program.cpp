@@ -1,4 +1,4 @@
-// The program `tsuya` with the commands of the lab alone: small enough for the guest of
+// The program `tsuya` with the commands of the lab alone: it starts at once in the guest of
 // gpio_test.sh.
 
 #include "command.h"

@@ -49,3 +49,4 @@ within() { # within LINE SINCE START SECONDS: driven off so soon after the start
 }
 # The processes whose parent is $1.
 children_of() { grep -l "^PPid:[[:space:]]*$1$" /proc/[0-9]*/status 2>/dev/null | cut -d/ -f3; }
+fresh_trace() { echo >/sys/kernel/tracing/trace; }

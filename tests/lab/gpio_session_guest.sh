@@ -3,54 +3,9 @@
 # real kernel device, in virtual time. $1: the program gpio_session. Ends with 0, or with 1.
 session=$1
 . /gpio_checks.sh
+. /gpio_rig.sh
 
-write_rig() { # write_rig NAME WARM_UP_S EXPOSURE_S
-    cat >"$1.rig.toml" <<END
-schema = "tsuya-rig 1"
-[lines.lamp]
-chip = "board"
-name = "lamp"
-[lines.shutter]
-chip = "board"
-name = "shutter"
-[lines.interlock]
-chip = "board"
-name = "interlock"
-[lines.estop]
-chip = "board"
-name = "estop"
-[lamp]
-kind = "metal-halide"
-serial = "T-1"
-warm_up_s = $2
-restrike_s = 900
-min_on_s = 0
-hold_s = 600
-log = "$1.lamp.log"
-[camera]
-command = ["/bin/sh", "-c", "sleep \$1; echo picture \$1 200 \$0 end >\$0", "{file}", "{exposure}"]
-exposures_s = [$3]
-black = 100
-saturation = 1000
-e_per_dn = 2.5
-read_noise_e = 4
-[white]
-rho_std = 0.99
-[sample]
-drive = "command"
-command = ["/bin/true", "{sample}"]
-END
-    for axis in lamp_theta lamp_phi camera stage; do
-        printf '[axes.%s]\ndrive = "command"\ncommand = ["/bin/true", "{axis}", "{deg}"]\n' $axis
-    done >>"$1.rig.toml"
-}
 run() { "$session" run "$1" >said 2>&1; }
-fresh_trace() { echo >/sys/kernel/tracing/trace; }
-# Each of the $2 frames of session $1 counts once.
-counts_each_once() {
-    numbers=$(sed -n 's/.*"kind":"ok","frame":\([0-9]*\),.*/\1/p' "$1/journal.jsonl" | sort -n)
-    [ "$(echo "$numbers" | uniq | wc -l)" = "$2" ] && [ -z "$(echo "$numbers" | uniq -d)" ]
-}
 start_run() { # run session $1 in the background, as $program, until the shutter is open after $2 s
     fresh_trace
     setsid "$session" run "$1" >said 2>&1 &

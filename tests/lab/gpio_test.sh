@@ -2,6 +2,7 @@
 # Lamp and shutter on a real GPIO character device, in a small virtual machine.
 # gpio_test.sh lines KERNEL ROOT GPIO_PULSES GPIO_WATCH (LAB_PROGRAM)
 # gpio_test.sh sessions KERNEL ROOT GPIO_SESSION
+# gpio_test.sh program KERNEL ROOT TSUYA
 #   KERNEL  the folder that gpio_bed/prepare fills; where it could not, the test is skipped (status 77)
 #   ROOT    of the system that the programs are from; empty for this one
 set -euo pipefail
@@ -17,6 +18,8 @@ for tool in qemu-system-x86_64 cpio; do
         exit 77
     }
 done
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 
 lines() {
     # A machine that crashes, or a command that fails, is no success.
@@ -36,9 +39,27 @@ lines() {
 
 sessions() {
     "$bed" --warp --chip board:4:0=lamp,1=shutter,2=interlock,3=estop \
-        --with "$here/gpio_checks.sh=/gpio_checks.sh" --with "$here/gpio_session_guest.sh=/guest.sh" \
-        --root "$root" --with "$1=/gpio_session" "$kernel" sh /guest.sh /gpio_session
+        --with "$here/gpio_checks.sh=/gpio_checks.sh" --with "$here/gpio_rig.sh=/gpio_rig.sh" \
+        --with "$here/gpio_session_guest.sh=/guest.sh" --root "$root" --with "$1=/gpio_session" \
+        "$kernel" sh /guest.sh /gpio_session
 }
 
-# Both in virtual time: the load of this computer does not show in the times.
+# The pictures of the guest's camera are those of a dry run here; it has none while the lamp is off.
+program() {
+    local tsuya=$1 pictures=()
+    . "$here/gpio_rig.sh"
+    make_picture='grep -q 1 /gpio/lamp/value && cp /pictures/$(basename $0) $0'
+    black=512 saturation=15800
+    (cd "$scratch" && write_rig bed 60 1)
+    "$tsuya" lab plan "$scratch/bed.rig.toml" --views few:45 --symmetry orthotropic -o "$scratch/plan.jsonl"
+    "$tsuya" lab run "$scratch/plan.jsonl" -o "$scratch/dry" --dry-run
+    for picture in "$scratch"/dry/frames/*; do pictures+=(--with "$picture=/pictures/${picture##*/}"); done
+    "$bed" --warp --memory 1400 --chip board:4:0=lamp,1=shutter,2=interlock,3=estop \
+        --with "$here/gpio_checks.sh=/gpio_checks.sh" --with "$here/gpio_rig.sh=/gpio_rig.sh" \
+        --with "$here/gpio_program_guest.sh=/guest.sh" --with "$scratch/bed.rig.toml=$scratch/bed.rig.toml" \
+        --with "$scratch/plan.jsonl=/plan.jsonl" "${pictures[@]}" --with "$tsuya=/tsuya" \
+        "$kernel" sh /guest.sh /tsuya /plan.jsonl
+}
+
+# All in virtual time: the load of this computer does not show in the times.
 "$task" "$@"
