@@ -2,6 +2,7 @@
 # Lamp and shutter on a real GPIO character device, in a small virtual machine.
 # gpio_test.sh lines KERNEL ROOT GPIO_PULSES GPIO_WATCH (LAB_PROGRAM)
 # gpio_test.sh sessions KERNEL ROOT GPIO_SESSION
+# gpio_test.sh reboot KERNEL ROOT GPIO_SESSION
 # gpio_test.sh program KERNEL ROOT TSUYA
 #   KERNEL  the folder that gpio_bed/prepare fills; where it could not, the test is skipped (status 77)
 #   ROOT    of the system that the programs are from; empty for this one
@@ -12,7 +13,7 @@ shift 3
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 bed=$here/gpio_bed/run
 "$here/gpio_bed/prepare" "$kernel"
-for tool in qemu-system-x86_64 cpio; do
+for tool in qemu-system-x86_64 cpio mke2fs; do
     command -v $tool >/dev/null || {
         echo "tsuya: skipped: no $tool (samples/install-packages test)"
         exit 77
@@ -44,6 +45,30 @@ sessions() {
         "$kernel" sh /guest.sh /gpio_session
 }
 
+# The computer is started again and again; its disk has the log of the lamp.
+reboot() {
+    local session=$1 off
+    truncate -s 16M "$scratch/disk"
+    mke2fs -q -t ext4 "$scratch/disk"
+    start() { # start TIME OPTION... TASK: the time of day then
+        "$bed" --clock "$1" "${@:2:$#-2}" --disk "$scratch/disk" \
+            --chip board:4:0=lamp,1=shutter,2=interlock,3=estop \
+            --with "$here/gpio_checks.sh=/gpio_checks.sh" --with "$here/gpio_rig.sh=/gpio_rig.sh" \
+            --with "$here/gpio_reboot_guest.sh=/guest.sh" --root "$root" \
+            --with "$session=/gpio_session" "$kernel" sh /guest.sh /gpio_session "${@: -1}"
+    }
+    after() { date -u -d "@$((off + $1))" +%Y-%m-%dT%H:%M:%S; } # after SECONDS
+
+    start 2026-01-31T12:00:00 --warp stopped | tee "$scratch/said"
+    off=$(sed -n 's/^off at //p' "$scratch/said")
+    # The clock of a computer without a battery goes back: then the whole time counts.
+    start 2026-01-31T11:00:00 '15 min 0 s'
+    start "$(after 600)" '[345] min [0-9]* s'
+    start "$(after 1000)" --warp cut
+    # Since when the lamp has been off, nobody knows.
+    start "$(after 3000)" '15 min 0 s'
+}
+
 # The pictures of the guest's camera are those of a dry run here; it has none while the lamp is off.
 program() {
     local tsuya=$1 pictures=()
@@ -61,5 +86,5 @@ program() {
         "$kernel" sh /guest.sh /tsuya /plan.jsonl
 }
 
-# All in virtual time: the load of this computer does not show in the times.
+# In virtual time, where times are looked at: the load of this computer does not show in them.
 "$task" "$@"
