@@ -219,8 +219,9 @@ std::string draw(const HemispherePicture &picture) {
     drawing.write({kMargin, 26}, title, {.size = 15});
     bool patches = false;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const glm::dvec2 corner(kMargin + static_cast<double>(i % columns) * cell.x,
-                                kTitle + static_cast<double>(i / columns) * cell.y);
+        const std::size_t column = i % columns, row = i / columns;
+        const glm::dvec2 corner(kMargin + static_cast<double>(column) * cell.x,
+                                kTitle + static_cast<double>(row) * cell.y);
         Disk disk(drawing, corner + glm::dvec2(radius, radius + kLine + kWarp), radius);
         patches |= disk.draw(lights[i], picture.joined);
     }
