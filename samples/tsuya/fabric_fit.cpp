@@ -41,7 +41,7 @@ struct FabricFit final : Command {
         o.option(
              "--use", &use, "ROWS",
              "rows that are fitted: normal, those with theta_i = 0; all, for the model yarn the "
-             "others too")
+             "others too, where that predicts lights that are left out of the fit better")
             .one_of({"normal", "all"});
         o.option("--lustre", &lustre, "LUSTRE",
                  "delustrant in the filaments, as it shows when the cloth is dyed: bright, none; "
@@ -75,7 +75,9 @@ struct FabricFit final : Command {
                 "0.05 (l2_cos) or more. The "
                 "residual of the fabric's model at each row is printed; where it misses the views "
                 "by more than 0.15 (l2_cos), a warning says so. Rows under oblique light are "
-                "compared with the model; --use all fits the model yarn to them as well.");
+                "compared with the model; --use all fits the model yarn to them as well. Each "
+                "light is left out of the fit in turn; where the fits miss the lights left out by "
+                "more than the fit to the rows with theta_i = 0 does, that one is kept.");
     }
 
     Status run(Console &console) override {
@@ -109,7 +111,7 @@ struct FabricFit final : Command {
                 report.before = oblique(table, *brdf, progress);
             report.yarn =
                 fit_yarn_lobes(bard, table, f0.value_or(kFibreF0), table_file.string(), progress);
-            fabric.specular = *report.yarn;
+            fabric.specular = report.yarn->lobes;
             fabric.spare = {views};
         }
         report.model.name = model_of(fabric);

@@ -44,6 +44,8 @@ void print_points(const FitReport &report) {
                   << (p.extrapolated ? "  extrapolated" : "") << "\n";
 }
 
+bool fitted_to_oblique(const FitReport &report) { return report.yarn && report.yarn->kept; }
+
 void print_oblique(const FitReport &report) {
     if (report.after.views.empty())
         return;
@@ -56,12 +58,17 @@ void print_oblique(const FitReport &report) {
             print_view(view.row.theta_r, view.row.phi_r, view.row.brdf_per_sr, view.fitted_per_sr);
         }
     }
+    if (report.yarn)
+        std::cout << std::setprecision(4) << "lights left out of the fit: l2_cos "
+                  << report.yarn->left_out_l2_cos << ", from above alone "
+                  << report.yarn->from_above_l2_cos << "; the fit "
+                  << (report.yarn->kept ? "to all views" : "from above alone") << " is kept\n";
     std::cout << "oblique views " << report.after.views.size() << " under " << report.after.lights
-              << " lights, " << (report.yarn ? "" : "not ") << "fitted: l2_cos "
+              << " lights, " << (fitted_to_oblique(report) ? "" : "not ") << "fitted: l2_cos "
               << std::setprecision(4) << report.after.l2_cos;
     if (report.yarn)
         std::cout << ", from above alone " << report.before.l2_cos << "; pits of weft "
-                  << report.yarn->pit[0] << ", of warp " << report.yarn->pit[1];
+                  << report.yarn->lobes.pit[0] << ", of warp " << report.yarn->lobes.pit[1];
     std::cout << "\n";
 }
 
@@ -76,12 +83,15 @@ Json json_of_model(const WrittenModel &model) {
 
 Json json_of_oblique(const FitReport &report) {
     Json numbers{{"lights", report.after.lights},
-                 {"fitted", report.yarn.has_value()},
+                 {"fitted", fitted_to_oblique(report)},
                  {"l2_cos", report.after.l2_cos}};
     if (report.yarn)
         numbers.update({{"l2_cos_from_above", report.before.l2_cos},
-                        {"pit_weft", report.yarn->pit[0]},
-                        {"pit_warp", report.yarn->pit[1]}});
+                        {"l2_cos_left_out",
+                         {{"all", report.yarn->left_out_l2_cos},
+                          {"from_above", report.yarn->from_above_l2_cos}}},
+                        {"pit_weft", report.yarn->lobes.pit[0]},
+                        {"pit_warp", report.yarn->lobes.pit[1]}});
     numbers["views"] = Json::array();
     for (const ModelledView &view : report.after.views)
         numbers["views"].push_back(

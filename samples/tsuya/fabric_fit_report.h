@@ -46,7 +46,7 @@ struct FitReport {
     std::vector<BodyChannel> channels{};
     std::optional<Covers> covers{}; // none without a weave or yarns
     double f0 = 1;
-    std::optional<YarnLobes> yarn{}; // fitted to oblique light too
+    std::optional<ObliqueFit> yarn{}; // none where oblique light was not asked to be fitted
     ObliqueViews before{}, after{};
 };
 

@@ -18,11 +18,12 @@ using nlohmann::json;
 using scene::Scratch;
 
 // What the sample satin would show under light from straight above and two views under each of six
-// lights, its weft deeper than light from above tells.
-std::string dozen_table(const Scratch &scratch, double odd = 1) {
+// lights, its weft deeper than light from above tells, or as deep.
+std::string dozen_table(const Scratch &scratch, double odd = 1, bool deeper = true) {
     Fabric fabric = read_fabric(satin());
     YarnLobes lobes = fit_yarn_lobes(*views_of(fabric), 0.05);
-    lobes.pit = {0.1, 0.05};
+    if (deeper)
+        lobes.pit = {0.1, 0.05};
     const YarnBrdf brdf(lobes);
     const auto direction = [](double theta, double phi) {
         return glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
@@ -183,6 +184,8 @@ TEST(FabricFit, UsesObliqueViewsIfAsked) {
     EXPECT_NEAR(after.at("l2_cos_from_above").get<double>(), before.at("l2_cos").get<double>(),
                 1e-6);
     EXPECT_LT(after.at("l2_cos"), 0.5 * before.at("l2_cos").get<double>());
+    const json &left_out = after.at("l2_cos_left_out");
+    EXPECT_LT(left_out.at("all").get<double>(), left_out.at("from_above").get<double>());
     EXPECT_TRUE(std::holds_alternative<CarriedViews>(read_fabric(normal).specular));
     const Fabric fitted = read_fabric(all);
     ASSERT_TRUE(std::holds_alternative<YarnLobes>(fitted.specular));
@@ -191,6 +194,35 @@ TEST(FabricFit, UsesObliqueViewsIfAsked) {
     EXPECT_TRUE(views_of(fitted)) << "the views are kept";
     const Outcome text = run_fabric(scratch, {"fit", table, "-o", all, "--use", "all"});
     EXPECT_NE(text.out.find("oblique views 12 under 6 lights, fitted: l2_cos"), std::string::npos);
+    EXPECT_NE(text.out.find("; the fit to all views is kept"), std::string::npos) << text.out;
+}
+
+TEST(FabricFit, KeepsTheFitFromAboveWhereObliqueViewsContradict) {
+    const Scratch scratch;
+    const std::string table = dozen_table(scratch, 1, false),
+                      file = (scratch / "f.fabric.toml").string();
+    ReflectanceTable odd = read_reflectance_table(table);
+    int i = 0;
+    for (ReflectanceRow &row : odd.rows)
+        if (!row.from_above())
+            row.brdf_per_sr *= (i + i / 2) % 2 == 0 ? 3 : 1.0 / 3, ++i;
+    write_reflectance_table(odd, table);
+    const Outcome text = run_fabric(scratch, {"fit", table, "-o", file, "--use", "all"});
+    ASSERT_EQ(text.status, 0) << text.err;
+    EXPECT_NE(text.out.find("; the fit from above alone is kept"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("oblique views 12 under 6 lights, not fitted"), std::string::npos);
+    const Outcome machine =
+        run_fabric(scratch, {"fit", table, "-o", file, "--use", "all", "--json"});
+    const json oblique = json::parse(machine.out).at("oblique");
+    EXPECT_EQ(oblique.at("fitted"), false);
+    EXPECT_EQ(oblique.at("l2_cos"), oblique.at("l2_cos_from_above"));
+    const json &left_out = oblique.at("l2_cos_left_out");
+    EXPECT_GT(left_out.at("all").get<double>(), left_out.at("from_above").get<double>());
+    const Fabric fitted = read_fabric(file);
+    const YarnLobes written = std::get<YarnLobes>(fitted.specular),
+                    from_above = fit_yarn_lobes(*views_of(fitted), kFibreF0);
+    EXPECT_NEAR(written.roughness, from_above.roughness, 1e-4);
+    EXPECT_NEAR(written.pit[0], from_above.pit[0], 1e-3);
 }
 
 TEST(FabricFit, NamesObliqueViewsThatDoNotFit) {

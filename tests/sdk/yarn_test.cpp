@@ -7,6 +7,7 @@
 
 #include "sdk/hemisphere_quadrature.h"
 #include "sdk/synthetic_table.h"
+#include "sdk/yarn_table.h"
 #include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
@@ -24,20 +25,6 @@ YarnLobes satin_lobes() {
     lobes.surface[0][kLevel] = 0.25;
     lobes.pit = {0.2, 0};
     return lobes;
-}
-
-ReflectanceTable table_of(const YarnBrdf &brdf, double theta_i_deg, double phi_i_deg) {
-    ReflectanceTable table = normal_table(satin_cloth(), even_grid(6, 10));
-    const double phi_to = theta_i_deg > 0 ? 360 : 95;
-    table.symmetry = theta_i_deg > 0 ? Symmetry::none : Symmetry::orthotropic;
-    table.rows.clear();
-    for (double theta = 0; theta < 89; theta += 5)
-        for (double phi = 0; phi < phi_to && (theta > 0 || phi == 0); phi += 5)
-            table.rows.push_back(
-                {theta_i_deg * kDegree, phi_i_deg * kDegree, theta * kDegree, phi * kDegree,
-                 static_cast<double>(brdf.evaluate(glm::vec3(direction(theta_i_deg, phi_i_deg)),
-                                                   glm::vec3(direction(theta, phi))))});
-    return table;
 }
 
 TEST(FilamentBed, LetsLevelFilamentsSeeAllButEachOther) {
@@ -94,83 +81,6 @@ TEST(YarnLobes, AreFoundAgainInTheViewsTheyMake) {
     for (const double phi : {0.0, 45.0, 90.0})
         EXPECT_LT(measure_accuracy(table_of(brdf, 60, phi), function).mean.l2_cos.value(), 0.06)
             << phi;
-}
-
-// Crossing yarns with equal shares of the face, of which the weft lies deeper than light from above
-// tells: two views under each of six lights.
-YarnLobes uneven_lobes() {
-    YarnLobes lobes{.f0 = 0.053, .roughness = 0.08};
-    for (const int axis : {0, 1})
-        for (int k = -8; k <= 8; ++k)
-            lobes.surface[axis][kLevel + k] = 0.05;
-    lobes.pit = {0.2, 0};
-    return lobes;
-}
-
-ReflectanceTable a_dozen(const YarnBrdf &brdf) {
-    ReflectanceTable table;
-    for (const auto &[theta, phi] :
-         {std::pair{45, 45}, {60, 0}, {60, 45}, {60, 90}, {75, 0}, {75, 90}})
-        for (const double beside : {0.0, 36.0})
-            table.rows.push_back(
-                {theta * kDegree, phi * kDegree, theta * kDegree, (phi + 180 + beside) * kDegree,
-                 static_cast<double>(
-                     brdf.evaluate(glm::vec3(direction(theta, phi)),
-                                   glm::vec3(direction(theta, phi + 180 + beside))))});
-    return table;
-}
-
-TEST(YarnLobes, FindPitsInADozenObliqueViews) {
-    const YarnLobes made = uneven_lobes();
-    const YarnBrdf brdf(made);
-    const Bard bard = Bard::fit(table_of(brdf, 0, 0), {}, "cloth");
-    const YarnLobes above = fit_yarn_lobes(bard, made.f0);
-    const YarnLobes found = fit_yarn_lobes(bard, a_dozen(brdf), made.f0, "cloth");
-    EXPECT_EQ(above.pit[0], 0); // equal shares: light from above takes them for level
-    EXPECT_NEAR(found.pit[0], 0.2, 0.026);
-    EXPECT_NEAR(found.pit[1], 0, 0.026);
-    EXPECT_NEAR(found.roughness / made.roughness, 1, 0.7); // of those that are tried
-    const YarnBrdf blind(above), seeing(found);
-    const auto error = [&](const YarnBrdf &model, double theta, double phi) {
-        return *measure_accuracy(table_of(brdf, theta, phi), [&](const auto &l, const auto &v) {
-                    return static_cast<double>(model.evaluate(glm::vec3(l), glm::vec3(v)));
-                }).mean.l2_cos;
-    };
-    EXPECT_LT(error(seeing, 66, 10), 0.1); // a light that was not shown
-    EXPECT_GT(error(blind, 66, 10), 0.2);
-}
-
-TEST(YarnLobes, RefuseObliqueViewsThatTellNothing) {
-    const YarnBrdf brdf(uneven_lobes());
-    const Bard bard = bard_of(satin_cloth());
-    const auto refused = [&](const ReflectanceTable &table, const std::string &what) {
-        try {
-            fit_yarn_lobes(bard, table, 0.05, "t.csv");
-            ADD_FAILURE() << "expected an Error: " << what;
-        } catch (const Error &error) {
-            ASSERT_EQ(error.problems().size(), 1u) << what;
-            EXPECT_EQ(error.problems()[0].where.rfind("t.csv", 0), 0u);
-            EXPECT_NE(error.problems()[0].what.find(what), std::string::npos)
-                << error.problems()[0].what;
-            EXPECT_FALSE(error.problems()[0].accepted.empty());
-        }
-    };
-    ReflectanceTable table = a_dozen(brdf);
-    refused(table_of(brdf, 0, 0), "0 views under oblique light");
-    table.rows.resize(3);
-    refused(table, "3 views under oblique light");
-    table = a_dozen(brdf);
-    for (ReflectanceRow &row : table.rows)
-        row.brdf_per_sr *= row.theta_i > 70 * kDegree && row.phi_i > 1 ? 0 : 1;
-    refused(table, "theta_i 75, phi_i 90 degrees are all 0");
-    table = a_dozen(brdf);
-    table.rows[5].brdf_per_sr = std::nan("");
-    refused(table, "");
-    table = a_dozen(brdf);
-    table.rows.push_back(table.rows[4]);
-    table.rows.back().brdf_per_sr *= 5; // contradicts its twin
-    refused(table, "");
-    EXPECT_THROW(fit_yarn_lobes(bard, a_dozen(brdf), 0, "t.csv"), Error);
 }
 
 // A cylinder turns light into a cone about its axis: for light along the warp, what the warp

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "models/facets.h"
 #include "models/least_positive.h"
-#include "models/oblique_rows.h"
 #include "models/slope_lobes.h"
-#include "tsuya/sdk/accuracy.h"
 
 namespace tsuya {
 namespace {
@@ -26,10 +23,6 @@ constexpr int kRounds = 3;
 constexpr int kFirstUpdates = 500, kNextUpdates = 120;
 // A system with less than this share of the face lies in pits; at the second share, in the deepest
 constexpr double kPitShare = 0.42, kDeepestShare = 0.22, kDeepest = 0.2;
-constexpr double kLowest = 1e-4; // cosine; a view on the horizon weighs nothing
-
-// A direction with a cosine that can be divided by.
-glm::dvec3 raised(const glm::dvec3 &d) { return {d.x, d.y, std::max(d.z, kLowest)}; }
 
 double pit_of(double share) {
     return kDeepest * std::clamp((kPitShare - share) / (kPitShare - kDeepestShare), 0.0, 1.0);
@@ -51,27 +44,24 @@ YarnProblem::YarnProblem(const Bard &bard, double f0, const Progress &progress)
     : progress_(progress), symmetric_(bard.symmetry() != Symmetry::none), f0_(checked_f0(f0)) {
     std::vector<ReflectanceRow> rows;
     for (const BardView &v : bard.views())
-        rows.push_back({.theta_r = v.theta, .phi_r = v.phi, .brdf_per_sr = v.brdf_per_sr});
-    add_light({0, 0, 1}, rows, 1, bard.symmetry());
+        rows.push_back({0, 0, v.theta, v.phi, v.brdf_per_sr, v.sigma_per_sr});
+    LitViews above({0, 0, 1}, rows, bard.symmetry());
+    worth_above_ = above.worth();
+    above.forget_sigma(); // so that they tell the same as without oblique ones
+    add_light(above, 1);
     above_ = target_.size();
 }
 
-// Views under one light, weighted by solid angle and cosine, with `share` of the weight.
-void YarnProblem::add_light(const glm::dvec3 &to_light, const std::vector<ReflectanceRow> &rows,
-                            double share, Symmetry symmetry) {
-    std::vector<glm::dvec3> directions;
-    for (const ReflectanceRow &row : rows)
-        directions.push_back(raised(row.to_viewer()));
-    const std::vector<double> area = solid_angles(directions, to_light, symmetry);
+// Views under one light, with `share` of the weight.
+void YarnProblem::add_light(const LitViews &lit, double share) {
     double square = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const glm::vec3 light(to_light), viewer(directions[i]);
-        views_.push_back(
-            {light, viewer, rows[i].brdf_per_sr, std::sqrt(area[i]) * directions[i].z});
+    for (const LitView &view : lit.views) {
+        views_.push_back({glm::vec3(lit.to_light), glm::vec3(view.to_viewer), view.value,
+                          std::sqrt(view.solid_angle * view.trust) * view.to_viewer.z});
         square += std::pow(views_.back().weight * views_.back().value, 2);
     }
     square = std::max(square, std::numeric_limits<double>::min());
-    const auto first = static_cast<Eigen::Index>(views_.size() - rows.size());
+    const auto first = static_cast<Eigen::Index>(views_.size() - lit.views.size());
     target_.conservativeResize(static_cast<Eigen::Index>(views_.size()));
     for (Eigen::Index i = first; i < target_.size(); ++i) {
         FittedView &view = views_[static_cast<std::size_t>(i)];
@@ -80,11 +70,9 @@ void YarnProblem::add_light(const glm::dvec3 &to_light, const std::vector<Reflec
     }
 }
 
-void YarnProblem::add_oblique(const ReflectanceTable &table, const std::string &where) {
-    const std::map<LightAngles, std::vector<ReflectanceRow>> lights = oblique_rows(table, where);
-    for (const auto &[angles, rows] : lights)
-        add_light(raised(direction_of(angles.first, angles.second)), rows,
-                  1.0 / static_cast<double>(lights.size()), table.symmetry);
+void YarnProblem::add(const LitViews &oblique) {
+    add_light(oblique,
+              oblique.worth() / std::max(worth_above_, std::numeric_limits<double>::min()));
 }
 
 Seen YarnProblem::seen(double roughness) const {

@@ -2,18 +2,17 @@
 // The least-squares problem of which filaments a cloth is made of.
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <glm/glm.hpp>
 
+#include "models/lit_views.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/detail/yarn_depth.h"
 #include "tsuya/sdk/detail/yarn_optics.h"
 #include "tsuya/sdk/progress.h"
-#include "tsuya/sdk/reflectance_table.h"
 #include "tsuya/sdk/yarn_lobes.h"
 
 namespace tsuya {
@@ -49,12 +48,12 @@ struct Seen {
 // The problem min |B x - f|^2 + bending + steepness over x >= 0 for one roughness. Unknown are the
 // surfaces at the slopes of weft and warp and the rest; a symmetric cloth has as much at a slope as
 // at its opposite. The views under light from straight above have a weight of 1 together, those
-// under oblique light, each direction of light alike, as well.
+// under an oblique light as much as they are worth in views from above.
 class YarnProblem {
   public:
     YarnProblem(const Bard &bard, double f0, const Progress &progress);
-    /// Adds the oblique rows of the table. Throws Error naming `where`.
-    void add_oblique(const ReflectanceTable &table, const std::string &where);
+    /// Adds views under an oblique light.
+    void add(const LitViews &oblique);
     Seen seen(double roughness) const;
     /// Returns the weighted relative error; sets the surfaces and the rest. Of the diffuse part it
     /// is `least_even` or more.
@@ -70,8 +69,7 @@ class YarnProblem {
     // Radians
     double slope(int unknown) const { return yarn_slope(static_cast<int>(index(unknown))); }
     std::size_t index(int unknown) const;
-    void add_light(const glm::dvec3 &to_light, const std::vector<ReflectanceRow> &rows,
-                   double share, Symmetry symmetry);
+    void add_light(const LitViews &lit, double share);
     Eigen::MatrixXd basis(const Seen &seen, const YarnLobes &lobes, Rest rest) const;
     Eigen::MatrixXd bending() const;
     void store(const Eigen::VectorXd &x, Rest rest, YarnLobes &lobes) const;
@@ -81,6 +79,7 @@ class YarnProblem {
     float f0_;
     std::vector<FittedView> views_{};
     Eigen::Index above_ = 0;   // views under light from straight above, the first
+    double worth_above_ = 0;   // of them
     Eigen::VectorXd target_{}; // weight times the value
 };
 

@@ -65,12 +65,28 @@ double yarn_facets(const YarnLobes &lobes, int axis, const glm::dvec3 &half);
 /// f0 is in (0, 1].
 YarnLobes fit_yarn_lobes(const Bard &bard, double f0, const Progress &progress = {});
 
+/// Filaments that were fitted to views under oblique light too, if those are of use.
+struct ObliqueFit {
+    YarnLobes lobes{};
+    bool kept = false; ///< fitted to all views; else to those from above alone
+    /// Error at lights that were left out of the fit, as ErrorMeasures::l2_cos: of fits to all
+    /// other views, and of the fit to those from above. Means of the lights by their views; a light
+    /// has 1, the error of black, at most.
+    double left_out_l2_cos = 0, from_above_l2_cos = 0;
+};
+
 /// Fits the depth of pits as well, which light from straight above does not show, to the rows of
 /// the table with oblique light; its rows with theta_i = 0 are not looked at. A dozen rows are
-/// enough: the slopes are fitted to both, with equal weight for the views from above and for the
-/// oblique lights together. Throws Error naming `where`: less than 4 oblique rows; a light whose
-/// views are all 0, or a bard of zeros; as check_table; f0 as above.
-YarnLobes fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double f0,
-                         const std::string &where, const Progress &progress = {});
+/// enough. Rows of the table and views of the bard count alike, but less the larger their standard
+/// error is over a tenth of the light's root mean square; of the views from above all together.
+///
+/// The fit is kept only where it predicts: each light, with those that the symmetry makes equal to
+/// it, is left out in turn, and the fits to the others must be nearer to those left out than the
+/// fit to views from above, in the mean. So one light alone is never kept. Takes about a second of
+/// a processor for six lights with two rows each. Throws Error naming `where`: less than 4 oblique
+/// rows; a light whose views are all 0, or a bard of zeros; as check_table; f0 as above;
+/// Interrupted where progress asks to stop.
+ObliqueFit fit_yarn_lobes(const Bard &bard, const ReflectanceTable &table, double f0,
+                          const std::string &where, const Progress &progress = {});
 
 } // namespace tsuya
