@@ -74,7 +74,9 @@ struct List final : Command {
 
     static std::string description_of(const Fabric &fabric) {
         const auto material = fabric.keys.find("material");
-        const std::string what = material == fabric.keys.end() ? fabric.name : material->second;
+        std::string what = material == fabric.keys.end() ? fabric.name : material->second;
+        if (fabric.colours.any_dye())
+            what += ", dyed";
         const auto lustre = static_cast<std::size_t>(fabric.colours.lustre);
         return lustre == 0 ? what : what + ", " + std::string(kLustreNames[lustre]);
     }
