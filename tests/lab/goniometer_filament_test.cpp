@@ -157,6 +157,45 @@ TEST(ClearCylinder, AbsorbsAlongTheChord) {
         }
 }
 
+/// Share of parallel light that comes through a cylinder that neither bends nor reflects it, of
+/// optical depth x across a diameter: Beer's law over chords cos(g) of a diameter, integral of
+/// exp(-x cos g) cos g over g from 0 to pi/2, term by term.
+double through_cylinder(double x) {
+    double cosines[] = {1, kPi / 4}; // integrals of cos g, cos^2 g, and so on
+    double sum = 0, term = 1;
+    for (int k = 0; k < 60; ++k) {
+        sum += term * cosines[k % 2];
+        term *= -x / (k + 1);
+        cosines[k % 2] *= (k + 2.0) / (k + 3);
+    }
+    return sum;
+}
+
+TEST(ClearCylinder, ObeysBeersLaw) {
+    // An index that hardly bends or reflects, below those that a measurement takes
+    constexpr double kHardly = 1.002;
+    for (const double depth : {0.5, 1.0, 2.0, 4.0}) {
+        const FilamentOptics optics{.refractive_index = kHardly,
+                                    .surface_roughness = 0.005,
+                                    .transmission = std::exp(-depth)};
+        const FilamentScene scene(FilamentCell(far_cylinders(optics), 0.02, 24), {});
+        const std::vector<FilamentMatter> matter{FilamentMatter(optics), FilamentMatter(optics)};
+        const LightViews light({0, 0, 1}, {glm::vec3(0, 0, 1)}, matter);
+        Sums sums(1);
+        constexpr int kBatches = 128;
+        for (std::uint32_t batch = 0; batch < kBatches; ++batch)
+            walk(scene, matter, light, {}, Random(1, 0, batch), sums);
+        const double lost = 1 - (sums.transmitted + sums.reflected) / (kBatches * kPhotonsPerBatch);
+        const double through = 1 - lost / kCover;
+        EXPECT_NEAR(through, through_cylinder(depth), 0.01) << depth;
+        EXPECT_GT(std::abs(through - std::exp(-depth)), 0.01) << "control: all of a diameter";
+        if (depth >= 1) {
+            EXPECT_GT(std::abs(through - std::exp(-depth * kPi / 4)), 0.01)
+                << "control: all of the mean chord";
+        }
+    }
+}
+
 /// Largest |z| of pairs of directions there and back, to 75 degrees.
 double reciprocity_z(const FilamentRepeat &repeat, Normals normals, double factor = 1) {
     constexpr int kPairs = 12, kBatches = 6;
