@@ -91,7 +91,7 @@ double least_roughness(const Bard &bard) {
 }
 
 Solution best_from_above(const YarnProblem &fit, double f0, double least) {
-    const Solution dark = FitFromAbove(fit, f0, Rest::loose, least).best();
+    Solution dark = FitFromAbove(fit, f0, Rest::loose, least).best();
     const YarnLobes &lobes = dark.lobes;
     if (total(lobes.surface[0]) + total(lobes.surface[1]) + lobes.loose <= kMostSurface)
         return dark;
