@@ -63,6 +63,8 @@ struct GarmentCheck final : Command {
                   << counted(r.openings.size(), "opening") << "\n  " << size.x << " x " << size.y
                   << " x " << size.z << " m, area " << r.area << " m2\n";
         print_cloth(r);
+        for (const garment::PanelReport &p : r.panel)
+            print_panel(p);
         for (const garment::Finding &f : r.findings)
             std::cout << (f.severity == garment::Severity::warning ? "warning " : "note ") << f.key
                       << ": " << f.what << (f.where.empty() ? "" : " (" + f.where + ")")
@@ -71,7 +73,7 @@ struct GarmentCheck final : Command {
             std::cout << "nothing is wrong\n";
     }
 
-    /// What the UVs say: the scale, the shear, and the grain of each panel.
+    /// What the UVs say: the scale and the shear.
     static void print_cloth(const garment::Report &r) {
         if (r.metres_per_uv_warp.p50 == 0)
             return;
@@ -83,10 +85,31 @@ struct GarmentCheck final : Command {
         line("weft (u):", r.metres_per_uv_weft, 1, "m a unit of UV");
         line("warp (v):", r.metres_per_uv_warp, 1, "m a unit of UV");
         line("between warp and weft:", r.warp_weft_angle, degrees_of(1), "degrees");
-        for (const garment::PanelReport &p : r.panel)
-            std::cout << "  panel " << p.name << ": " << counted(p.faces, "face") << ", " << p.area
-                      << " m2, warp " << std::round(degrees_of(p.warp_to_vertical))
-                      << " degrees from the vertical\n";
+    }
+
+    /// What can be named: in a scene by [garments.NAME.panels], in a try-on by --fabric
+    /// PANEL=FABRIC.
+    static void print_panel(const garment::PanelReport &p) {
+        const glm::dvec3 size = p.upper - p.lower;
+        std::cout << "  panel " << p.name << names_of(p) << ": " << counted(p.faces, "face") << ", "
+                  << p.area << " m2, " << size.x << " x " << size.y << " x " << size.z
+                  << " m about (" << 0.5 * (p.lower.x + p.upper.x) << ", "
+                  << 0.5 * (p.lower.y + p.upper.y) << ", " << 0.5 * (p.lower.z + p.upper.z) << ")";
+        if (p.warp != glm::dvec3(0))
+            std::cout << ", warp " << std::round(degrees_of(p.warp_to_vertical))
+                      << " degrees from the vertical";
+        std::cout << "\n";
+    }
+
+    /// ` (group g, material m)`: what the file calls a panel, where that is not its name.
+    static std::string names_of(const garment::PanelReport &p) {
+        std::string names;
+        for (const auto &[kind, name] :
+             {std::pair("object", &p.label.object), std::pair("group", &p.label.group),
+              std::pair("material", &p.label.material), std::pair("island", &p.label.island)})
+            if (!name->empty() && *name != p.name)
+                names += (names.empty() ? " (" : ", ") + std::string(kind) + " " + *name;
+        return names.empty() ? names : names + ")";
     }
 };
 

@@ -77,6 +77,12 @@ Json json_of(const garment::Report &r) {
     Json panels = Json::array();
     for (const garment::PanelReport &p : r.panel)
         panels.push_back({{"name", p.name},
+                          {"object", p.label.object},
+                          {"group", p.label.group},
+                          {"material", p.label.material},
+                          {"island", p.label.island},
+                          {"lower_m", json_of(p.lower)},
+                          {"upper_m", json_of(p.upper)},
                           {"faces", p.faces},
                           {"area", p.area},
                           {"warp", json_of(p.warp)},

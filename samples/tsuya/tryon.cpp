@@ -1,5 +1,6 @@
 // tsuya tryon: the main job without a scene file.
 
+#include <algorithm>
 #include <iostream>
 
 #include "command.h"
@@ -14,10 +15,13 @@
 namespace tsuya::program {
 namespace {
 
+constexpr const char *kDefaultFabric = "black_satin";
+
 struct TryOn final : Command {
     scene::TryOn job{};
     std::filesystem::path garment{}, data{};
-    std::string fabric = "black_satin", grain{};
+    std::vector<std::string> fabrics{kDefaultFabric}, backs{};
+    std::string grain{};
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
@@ -31,7 +35,11 @@ struct TryOn final : Command {
         o.option("--data", &data, "DIR", "folder of the sample data");
         o.example("tsuya tryon --garment dress.obj --fabric black_satin --dye white,indigo "
                   "--lamps D65,A -o out");
-        o.notes("Without --garment: the sample dress on its mannequin.");
+        o.notes("Without --garment: the sample dress on its mannequin.\n"
+                "PANELS is the name of a panel, object, group, material or UV island as `tsuya "
+                "garment check` lists them; * stands for any letters, ? for one: --fabric "
+                "black_satin --fabric \"Button*=plastic\". The last that names a panel counts. "
+                "Panels of their own keep their own dye.");
     }
 
     void add_garment(Options &o) {
@@ -73,8 +81,13 @@ struct TryOn final : Command {
     }
 
     void add_cloth(Options &o) {
-        o.option("--fabric", &fabric, "FABRIC", "F.fabric.toml, or a name of `tsuya list fabrics`")
-            .check([this] { check_fabric(); });
+        o.option("--fabric", &fabrics, "[PANELS=]FABRIC",
+                 "F.fabric.toml, or a name of `tsuya list fabrics`; with PANELS= of some panels "
+                 "alone, see notes; may be given again")
+            .check([this] { check_fabrics(fabrics); });
+        o.option("--back", &backs, "[PANELS=]FABRIC",
+                 "what is seen from behind, such as a lining; may be given again")
+            .check([this] { check_fabrics(backs); });
         o.option("--dye", &job.dyes, "A,B,...",
                  "dyes, one render each: names of `tsuya list dyes`, #rrggbb, F.csv")
             .with_commas()
@@ -117,7 +130,7 @@ struct TryOn final : Command {
         } else {
             job.garment = garment;
         }
-        job.fabric = scene::find_fabric(fabric, data_folder());
+        take_fabrics();
         job.invented_grain = parse_grain(grain);
         job.look = look.look();
         job.render.stop.relative_error = error;
@@ -141,21 +154,66 @@ struct TryOn final : Command {
         return kInterrupted;
     }
 
-    /// Throws Error for a name that no sample fabric has. Where there is no sample data, the run
-    /// says so.
-    void check_fabric() const {
-        std::filesystem::path folder;
-        try {
-            folder = data_folder();
-        } catch (const Error &) {
-            return;
+    /// `PANELS=FABRIC`, or `FABRIC` for all.
+    struct FabricWord {
+        std::string panels, fabric;
+
+        explicit FabricWord(const std::string &word) {
+            const std::size_t at = word.rfind('=');
+            fabric = at == std::string::npos ? word : word.substr(at + 1);
+            panels = at == std::string::npos ? "" : word.substr(0, at);
+            if (fabric.empty() || (at != std::string::npos && panels.empty()))
+                throw Error({"'" + word + "' has no " + (fabric.empty() ? "fabric" : "panels"), "",
+                             "expected FABRIC, or PANELS=FABRIC"});
         }
-        scene::find_fabric(fabric, folder);
+    };
+
+    void take_fabrics() {
+        const auto find = [&](const std::string &name) {
+            return scene::find_fabric(name, data_folder());
+        };
+        for (const std::string &word : fabrics) {
+            const FabricWord cloth(word);
+            if (cloth.panels.empty())
+                job.fabric = find(cloth.fabric);
+            else
+                job.panels.push_back({.pattern = cloth.panels, .fabric = find(cloth.fabric)});
+        }
+        if (job.fabric.empty())
+            job.fabric = find(kDefaultFabric);
+        for (const std::string &word : backs) {
+            const FabricWord cloth(word);
+            if (cloth.panels.empty())
+                job.back = find(cloth.fabric);
+            else
+                job.panels.push_back({.pattern = cloth.panels, .back = find(cloth.fabric)});
+        }
+    }
+
+    /// Throws Error for a word that is no cloth, two cloths for all panels, and a name that no
+    /// sample fabric has. Where there is no sample data, the run says so.
+    void check_fabrics(const std::vector<std::string> &words) const {
+        std::size_t for_all = 0;
+        for (const std::string &word : words) {
+            const FabricWord cloth(word);
+            if (cloth.panels.empty() && ++for_all > 1)
+                throw Error({"two fabrics for all panels, the second is " + cloth.fabric, "",
+                             "expected one, and others as PANELS=FABRIC"});
+            std::filesystem::path folder;
+            try {
+                folder = data_folder();
+            } catch (const Error &) {
+                continue;
+            }
+            scene::find_fabric(cloth.fabric, folder);
+        }
     }
 
     /// The sample data is needed by names and the sample dress only.
     std::filesystem::path data_folder() const {
-        const bool named = garment.empty() || !fabric.ends_with(".toml");
+        const auto is_name = [](const std::string &word) { return !word.ends_with(".toml"); };
+        const bool named = garment.empty() || std::ranges::any_of(fabrics, is_name) ||
+                           std::ranges::any_of(backs, is_name);
         return named ? scene::data_folder(data) : std::filesystem::path{};
     }
 };

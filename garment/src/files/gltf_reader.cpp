@@ -258,25 +258,27 @@ class GltfReader {
             const tinygltf::Primitive &primitive = mesh.primitives[i];
             const std::string place = where + ": primitive " + std::to_string(i);
             look_at_stop(progress_);
+            PanelLabel label{
+                .object = node.name, .group = mesh.name, .material = material_of(primitive)};
             std::string name = !node.name.empty() ? node.name : mesh.name;
             if (mesh.primitives.size() > 1)
                 name += "/" + std::to_string(i);
-            if (const Part part = read_part(model_, primitive, place); !part.corner.empty())
-                add_part(part, world, name, place);
+            const Part part = read_part(model_, primitive, place);
+            if (!part.corner.empty())
+                add_part(part, world, add_panel(std::move(name), std::move(label)), place);
         }
     }
 
-    /// A name that no other panel has.
-    std::uint16_t add_panel(std::string name, const std::string &where) {
+    /// A panel of a name that no other has.
+    std::uint32_t add_panel(std::string name, PanelLabel label) {
         if (name.empty())
             name = "unnamed";
-        if (out_.mesh.panel_name.size() >= std::numeric_limits<std::uint16_t>::max())
-            throw Error({"more than 65535 panels", where, "expected fewer"});
         const int use = ++uses_[name];
         if (use > 1)
             name += "#" + std::to_string(use);
         out_.mesh.panel_name.push_back(name);
-        return static_cast<std::uint16_t>(out_.mesh.panel_name.size() - 1);
+        out_.mesh.panel_label.push_back(std::move(label));
+        return static_cast<std::uint32_t>(out_.mesh.panel_name.size() - 1);
     }
 
     void take_room(std::size_t amount, const std::string &where) {
@@ -286,11 +288,17 @@ class GltfReader {
         room_ -= amount;
     }
 
-    void add_part(const Part &part, const glm::dmat4 &world, const std::string &name,
+    std::string material_of(const tinygltf::Primitive &primitive) const {
+        const auto material = static_cast<std::size_t>(primitive.material);
+        return primitive.material >= 0 && material < model_.materials.size()
+                   ? model_.materials[material].name
+                   : std::string();
+    }
+
+    void add_part(const Part &part, const glm::dmat4 &world, std::uint32_t panel,
                   const std::string &where) {
         take_room(part.corner.size() + part.position.size() * (1 + part.morphed.size()), where);
         PolygonMesh &mesh = out_.mesh;
-        const std::uint16_t panel = add_panel(name, where);
         const auto uv_base = static_cast<std::int32_t>(mesh.uv.size());
         const auto place = [&](const glm::dvec3 &p) {
             return glm::dvec3(world * glm::dvec4(p, 1.0));
@@ -327,7 +335,7 @@ class GltfReader {
             add_hint(part, panel);
     }
 
-    void add_hint(const Part &part, std::uint16_t panel) {
+    void add_hint(const Part &part, std::uint32_t panel) {
         FabricHint hint = *part.hint;
         hint.panel = out_.mesh.panel_name[panel];
         if (!part.tangent.empty() && !part.uv.empty()) {

@@ -1,5 +1,7 @@
 #include <array>
 #include <limits>
+#include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "files/text_blocks.h"
@@ -18,10 +20,13 @@ enum PanelKind { kGroup, kObject, kMaterial, kPanelKinds };
 /// Names of one kind and the current one.
 struct PanelNames {
     std::vector<std::string> name{"unnamed"};
-    std::unordered_map<std::string, std::uint16_t> index{{"unnamed", 0}};
-    std::uint16_t current = 0;
+    std::unordered_map<std::string, std::uint32_t> index{{"unnamed", 0}};
+    std::uint32_t current = 0;
     bool stated = false; ///< the file has such a line
 };
+
+/// A name of each kind.
+using PanelKey = std::array<std::uint32_t, kPanelKinds>;
 
 /// An index that names something further down the file, to be checked at its end.
 struct ForwardIndex {
@@ -47,7 +52,7 @@ class ObjParser {
         if (problems_.empty() && mesh_.face_count() == 0)
             problems_.add({"the file has no face", name_, "expected lines such as f 1 2 3"});
         problems_.throw_if_any();
-        choose_panels();
+        name_panels();
         share_equal_uvs(mesh_);
         return std::move(mesh_);
     }
@@ -112,13 +117,25 @@ class ObjParser {
             name = "unnamed";
         names.stated = true;
         const auto [it, added] =
-            names.index.try_emplace(name, static_cast<std::uint16_t>(names.name.size()));
-        if (added) {
-            if (names.name.size() > std::numeric_limits<std::uint16_t>::max())
-                throw Error({"more than 65535 names of panels", text_.where(), "expected fewer"});
+            names.index.try_emplace(name, static_cast<std::uint32_t>(names.name.size()));
+        if (added)
             names.name.push_back(name);
-        }
         names.current = it->second;
+        panel_.reset();
+    }
+
+    /// The panel of the current names.
+    std::uint32_t current_panel() {
+        if (!panel_) {
+            const PanelKey key{names_[kGroup].current, names_[kObject].current,
+                               names_[kMaterial].current};
+            const auto [at, added] =
+                panel_index_.try_emplace(key, static_cast<std::uint32_t>(panels_.size()));
+            if (added)
+                panels_.push_back(key);
+            panel_ = at->second;
+        }
+        return *panel_;
     }
 
     /// Reads one index of the kind whose count so far is given; 0-based, -1 after a problem.
@@ -191,8 +208,7 @@ class ObjParser {
             return;
         }
         mesh_.face_offset.push_back(static_cast<std::uint32_t>(mesh_.corner_position.size()));
-        for (int k = 0; k < kPanelKinds; ++k)
-            face_name_[k].push_back(names_[k].current);
+        mesh_.face_panel.push_back(current_panel());
     }
 
     void check_forward_indices() {
@@ -206,31 +222,53 @@ class ObjParser {
         }
     }
 
+    const std::string &name_of(const PanelKey &panel, std::size_t kind) const {
+        return names_[kind].name[panel[kind]];
+    }
+
     /// The first kind that tells faces apart, else the first that the file states.
-    void choose_panels() {
-        int chosen = -1;
-        for (int k = kPanelKinds - 1; k >= 0; --k)
+    std::optional<std::size_t> naming_kind() const {
+        for (std::size_t k = 0; k < kPanelKinds; ++k)
+            for (const PanelKey &panel : panels_)
+                if (panel[k] != panels_.front()[k])
+                    return k;
+        for (std::size_t k = 0; k < kPanelKinds; ++k)
             if (names_[k].stated)
-                chosen = k;
-        for (int k = kPanelKinds - 1; k >= 0; --k)
-            for (const std::uint16_t n : face_name_[k])
-                if (n != face_name_[k].front()) {
-                    chosen = k;
-                    break;
-                }
-        if (chosen < 0) {
-            mesh_.face_panel.assign(mesh_.face_count(), 0);
+                return k;
+        return {};
+    }
+
+    /// Panels are called by one kind of names, and where that is not enough by the others, too:
+    /// `FRONT/satin`, `FRONT/crepe`.
+    void name_panels() {
+        const std::optional<std::size_t> kind = naming_kind();
+        if (!kind)
             return;
+        struct Alike {
+            const PanelKey *first;
+            std::array<bool, kPanelKinds> differs{};
+        };
+        std::unordered_map<std::uint32_t, Alike> alike; // by the first name
+        for (const PanelKey &panel : panels_) {
+            Alike &all = alike.try_emplace(panel[*kind], Alike{&panel}).first->second;
+            for (std::size_t k = 0; k < kPanelKinds; ++k)
+                all.differs[k] = all.differs[k] || panel[k] != (*all.first)[k];
         }
-        // Only names that faces have, in the order of their first faces.
-        constexpr std::uint16_t kUnused = std::numeric_limits<std::uint16_t>::max();
-        std::vector<std::uint16_t> number(names_[chosen].name.size(), kUnused);
-        for (const std::uint16_t n : face_name_[chosen]) {
-            if (number[n] == kUnused) {
-                number[n] = static_cast<std::uint16_t>(mesh_.panel_name.size());
-                mesh_.panel_name.push_back(names_[chosen].name[n]);
-            }
-            mesh_.face_panel.push_back(number[n]);
+        std::unordered_map<std::string, int> uses;
+        for (const PanelKey &panel : panels_) {
+            std::string name = name_of(panel, *kind);
+            for (std::size_t k = 0; k < kPanelKinds; ++k)
+                if (alike.at(panel[*kind]).differs[k])
+                    name += "/" + name_of(panel, k);
+            if (const int use = ++uses[name]; use > 1)
+                name += "#" + std::to_string(use);
+            mesh_.panel_name.push_back(std::move(name));
+            const auto stated = [&](std::size_t k) {
+                return names_[k].stated ? name_of(panel, k) : std::string();
+            };
+            mesh_.panel_label.push_back({.object = stated(kObject),
+                                         .group = stated(kGroup),
+                                         .material = stated(kMaterial)});
         }
     }
 
@@ -238,7 +276,9 @@ class ObjParser {
     std::string name_;
     PolygonMesh mesh_;
     std::array<PanelNames, kPanelKinds> names_;
-    std::array<std::vector<std::uint16_t>, kPanelKinds> face_name_;
+    std::vector<PanelKey> panels_; ///< in the order of their first faces
+    std::map<PanelKey, std::uint32_t> panel_index_;
+    std::optional<std::uint32_t> panel_; ///< of the current names
     std::vector<ForwardIndex> forward_;
     Problems problems_;
 };

@@ -34,7 +34,7 @@ std::string header(const Surface &s) {
     text += "element face " + std::to_string(s.triangle.size()) +
             "\nproperty list uchar int vertex_indices\n";
     if (!s.panel.empty())
-        properties("ushort", {"panel"});
+        properties("uint", {"panel"});
     return text + "end_header\n";
 }
 

@@ -1,5 +1,6 @@
 #include "tsuya/garment/frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -146,9 +147,21 @@ void spread_frames(const LimitMesh &mesh, Surface &s, std::vector<bool> &valid) 
     }
 }
 
-double degenerate_share(const LimitMesh &mesh, const std::vector<bool> &valid) {
+// By panel, at least one.
+std::vector<bool> plain_panels(const LimitMesh &mesh, const FrameOptions &options) {
+    std::vector<bool> plain(std::max<std::size_t>(mesh.panel_name.size(), 1));
+    for (std::size_t p = 0; p < mesh.panel_name.size(); ++p)
+        plain[p] = options.plain.contains(mesh.panel_name[p]);
+    return plain;
+}
+
+// Of the area of panels that are not plain.
+double degenerate_share(const LimitMesh &mesh, const std::vector<bool> &valid,
+                        const std::vector<bool> &plain) {
     double total = 0.0, degenerate = 0.0;
     for (const glm::uvec3 &t : mesh.triangle) {
+        if (plain[mesh.panel[t.x]])
+            continue;
         const glm::dvec3 a = mesh.position[t.x];
         const double area = glm::length(glm::cross(mesh.position[t.y] - a, mesh.position[t.z] - a));
         total += area;
@@ -166,10 +179,12 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
     std::vector<bool> valid(mesh.position.size());
     frames_from_uv(mesh, grain, s, valid, report, progress);
     look_at_stop(progress);
-    for (const bool v : valid)
-        report.repaired += !v;
-    if (report.repaired > 0) {
-        report.repaired_area_share = degenerate_share(mesh, valid);
+    const std::vector<bool> plain = plain_panels(mesh, options);
+    for (std::size_t v = 0; v < valid.size(); ++v)
+        report.repaired += !valid[v] && !plain[mesh.panel[v]];
+    if (report.repaired > 0)
+        report.repaired_area_share = degenerate_share(mesh, valid, plain);
+    if (std::find(valid.begin(), valid.end(), false) != valid.end()) {
         if (report.repaired_area_share > options.max_degenerate_area) {
             if (!options.invented_grain)
                 throw Error(

@@ -68,7 +68,7 @@ LimitNumbering::LimitNumbering(const LimitSurface &surface, const FacePatterns &
     sides_.reserve(mesh.position.size() + edge_head.size());
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         look_at_stop(progress, f);
-        const std::uint16_t panel = mesh.face_panel[f];
+        const std::uint32_t panel = mesh.face_panel[f];
         const auto edges = level.GetFaceEdges(static_cast<int>(f));
         for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
             const std::uint32_t a = mesh.corner_position[c];

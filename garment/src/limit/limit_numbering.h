@@ -53,7 +53,7 @@ class LimitNumbering {
         std::uint32_t
             vertex; ///< of the corner, or of the edge's first inner point from its low end
         std::int32_t uv_low, uv_high;
-        std::uint16_t panel;
+        std::uint32_t panel;
         std::uint32_t next;
     };
 

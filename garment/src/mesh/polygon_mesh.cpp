@@ -40,6 +40,10 @@ void check_lengths(const PolygonMesh &mesh, MeshProblems &problems) {
         problems.add("face_panel has " +
                          detail::counted(mesh.face_panel.size(), "entry", "entries"),
                      "expected one a face, " + std::to_string(mesh.face_count()));
+    if (!mesh.panel_label.empty() && mesh.panel_label.size() != mesh.panel_name.size())
+        problems.add("panel_label has " +
+                         detail::counted(mesh.panel_label.size(), "entry", "entries"),
+                     "expected one a name, " + std::to_string(mesh.panel_name.size()));
     problems.throw_if_any();
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
         if (mesh.face_offset[f + 1] < mesh.face_offset[f] + 3 || mesh.face_offset[f + 1] > corners)
@@ -67,7 +71,7 @@ void check_numbers(const PolygonMesh &mesh, MeshProblems &problems) {
 } // namespace
 
 void PolygonMesh::add_face(const std::vector<std::uint32_t> &positions,
-                           const std::vector<std::int32_t> &uvs, std::uint16_t panel) {
+                           const std::vector<std::int32_t> &uvs, std::uint32_t panel) {
     corner_position.insert(corner_position.end(), positions.begin(), positions.end());
     corner_uv.insert(corner_uv.end(), uvs.begin(), uvs.end());
     face_offset.push_back(static_cast<std::uint32_t>(corner_position.size()));
@@ -136,7 +140,7 @@ void share_equal_uvs(PolygonMesh &mesh) {
         start[v] += start[v - 1];
     struct Seen {
         std::int32_t uv;
-        std::uint16_t panel;
+        std::uint32_t panel;
     };
     std::vector<Seen> seen(mesh.corner_position.size());
     std::vector<std::uint32_t> seen_end(start.begin(), start.end() - 1);
@@ -157,21 +161,6 @@ void share_equal_uvs(PolygonMesh &mesh) {
             if (!found)
                 seen[seen_end[v]++] = {uv, mesh.face_panel[f]};
         }
-}
-
-void name_islands(PolygonMesh &mesh, const SetNumbers &islands) {
-    if (islands.count > std::numeric_limits<std::uint16_t>::max())
-        throw Error({"the mesh has " + std::to_string(islands.count) + " UV islands", "",
-                     "expected at most 65535 panels"});
-    mesh.panel_name.clear();
-    for (std::uint32_t i = 0; i < islands.count; ++i)
-        mesh.panel_name.push_back("island" + std::to_string(i));
-    for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        mesh.face_panel[f] = static_cast<std::uint16_t>(islands.of[f]);
-}
-
-void panels_from_uv_islands(PolygonMesh &mesh) {
-    name_islands(mesh, find_islands(mesh, EdgeTable(mesh)));
 }
 
 void check_valence(const PolygonMesh &mesh) {

@@ -86,14 +86,25 @@ bool has_uv_area(const PolygonMesh &mesh, std::size_t f, const FaceMeasure &m) {
 class PanelSums {
   public:
     explicit PanelSums(const PolygonMesh &mesh) : panel_(mesh.panel_name.size()) {
-        for (std::size_t p = 0; p < panel_.size(); ++p)
+        for (std::size_t p = 0; p < panel_.size(); ++p) {
             panel_[p].name = mesh.panel_name[p];
+            if (p < mesh.panel_label.size())
+                panel_[p].label = mesh.panel_label[p];
+        }
     }
-    void add_face(std::size_t panel, double area) {
-        if (panel >= panel_.size())
+    void add_face(const PolygonMesh &mesh, std::size_t f, double area) {
+        const std::size_t p = mesh.face_panel[f];
+        if (p >= panel_.size())
             return;
-        ++panel_[panel].faces;
-        panel_[panel].area += area;
+        PanelReport &panel = panel_[p];
+        if (panel.faces++ == 0)
+            panel.lower = panel.upper = mesh.position[mesh.corner_position[mesh.face_offset[f]]];
+        panel.area += area;
+        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
+            const glm::dvec3 &v = mesh.position[mesh.corner_position[c]];
+            panel.lower = glm::min(panel.lower, v);
+            panel.upper = glm::max(panel.upper, v);
+        }
     }
     void add_warp(std::size_t panel, const glm::dvec3 &p_v, double area) {
         const double length = glm::length(p_v);
@@ -159,7 +170,7 @@ void MeshRepair::measure_uv() {
         look_at_stop(progress_, f);
         const FaceMeasure m = measure_face(mesh, f);
         report.area += m.area;
-        panels.add_face(mesh.face_panel[f], m.area);
+        panels.add_face(mesh, f, m.area);
         if (!has_uv(mesh, f)) {
             ++report.faces_without_uv;
             keep_place(report.first_place, "faces_without_uv", first_point(f));

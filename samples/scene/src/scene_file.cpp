@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "dressing.h"
 #include "scene_meshes.h"
 #include "scene_reader.h"
 #include "tsuya/sdk/error.h"
@@ -9,11 +10,14 @@
 namespace tsuya::scene {
 namespace {
 
-void add_object(Scene &scene, const std::string &name, Surface surface, std::size_t fabric) {
+void add_object(Scene &scene, const std::string &name, Surface surface, Dressing dressing) {
     const auto index = static_cast<std::uint32_t>(scene.surfaces.size());
     scene.surfaces.push_back(std::move(surface));
-    scene.objects.push_back({name, {index}, {static_cast<std::uint32_t>(fabric)}});
+    scene.objects.push_back(
+        {name, {index}, dressing.fabric, dressing.back, std::move(dressing.panels)});
 }
+
+FabricIndex index_of(std::size_t fabric) { return {static_cast<std::uint32_t>(fabric)}; }
 
 /// Where the file has the parts of its scene: `a.scene.toml:9:1: lights.key` for `rectangles[0]`.
 std::map<std::string, std::string> places_of(const SceneFile &file) {
@@ -115,16 +119,20 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
             if (!entry.visible)
                 continue;
             built.reports.push_back({entry.mesh});
-            add_object(scene, entry.name,
-                       meshes.add({.file = garment::read_mesh(entry.mesh, progress),
-                                   .where = entry.mesh.string(),
-                                   .options = entry.options,
-                                   .tolerance_px = entry.tolerance_px,
-                                   .translate = entry.translate}),
-                       entry.fabric);
+            SceneMesh mesh{.file = garment::read_mesh(entry.mesh, progress),
+                           .where = entry.mesh.string(),
+                           .options = entry.options,
+                           .tolerance_px = entry.tolerance_px,
+                           .translate = entry.translate};
+            Dressing dressing =
+                dress(index_of(entry.fabric),
+                      entry.back ? std::optional(index_of(*entry.back)) : std::nullopt,
+                      entry.panels, scene.fabrics, mesh.file, mesh.options);
+            add_object(scene, entry.name, meshes.add(std::move(mesh)), std::move(dressing));
         }
     if (file.backdrop) {
-        add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape), scene.fabrics.size());
+        add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape),
+                   {.fabric = index_of(scene.fabrics.size())});
         scene.fabrics.push_back(
             {.name = "backdrop", .colours = {.dye = file.backdrop->reflectance}});
     }

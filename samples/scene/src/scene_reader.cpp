@@ -161,18 +161,14 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
     const auto meshes = root_.section(kind);
     if (!meshes)
         return;
-    std::vector<std::string> fabrics;
-    for (const FabricEntry &fabric : file_.fabrics)
-        fabrics.push_back(fabric.name);
     for (const auto &[name, section] : meshes->sections()) {
         MeshEntry entry{
             .name = name, .where = section.where(), .mesh = existing_file(section, "mesh", true)};
-        const std::string fabric = section.required_text("fabric");
-        const auto found = std::find(fabrics.begin(), fabrics.end(), fabric);
-        entry.fabric = static_cast<std::size_t>(found - fabrics.begin());
-        if (found == fabrics.end() && !fabric.empty())
-            section.problem("fabric", "no fabric '" + fabric + "'",
-                            accepted_names(fabric, fabrics));
+        section.required_text("fabric");
+        entry.fabric = fabric_named(section, "fabric").value_or(0);
+        entry.back = fabric_named(section, "back");
+        if (const auto panels = section.section("panels"))
+            read_panels(*panels, yarn, entry);
         if (const auto unit = section.text("unit"))
             note(section, "unit",
                  [&] { entry.options.metres_per_unit = garment::metres_per(*unit); });
@@ -192,6 +188,33 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         if (yarn)
             read_cloth(section, entry);
         entries.push_back(std::move(entry));
+    }
+}
+
+std::optional<std::size_t> SceneReader::fabric_named(const Section &section, const char *key) {
+    const std::string name = section.text(key).value_or("");
+    if (name.empty())
+        return {};
+    std::vector<std::string> fabrics;
+    for (const FabricEntry &fabric : file_.fabrics)
+        fabrics.push_back(fabric.name);
+    const auto found = std::find(fabrics.begin(), fabrics.end(), name);
+    if (found != fabrics.end())
+        return static_cast<std::size_t>(found - fabrics.begin());
+    section.problem(key, "no fabric '" + name + "'", accepted_names(name, fabrics));
+    return {};
+}
+
+void SceneReader::read_panels(const Section &panels, bool yarn, MeshEntry &entry) {
+    for (const auto &[pattern, section] : panels.sections()) {
+        PanelEntry panel{.pattern = pattern,
+                         .where = section.where(),
+                         .fabric = fabric_named(section, "fabric"),
+                         .back = fabric_named(section, "back")};
+        if (yarn)
+            if (const auto grain = section.number("grain_deg", -360, 360))
+                panel.grain = *grain * kDegree;
+        entry.panels.push_back(std::move(panel));
     }
 }
 

@@ -27,6 +27,9 @@ class SceneReader {
     void read_framing(const Section &camera);
     void read_fabrics();
     void read_meshes(const char *kind, bool yarn, std::vector<MeshEntry> &entries);
+    void read_panels(const Section &panels, bool yarn, MeshEntry &entry);
+    // Index of the fabric that a key names; empty where it names none.
+    std::optional<std::size_t> fabric_named(const Section &section, const char *key);
     void read_cloth(const Section &section, MeshEntry &entry);
     void read_grain(const Section &grain, MeshEntry &entry);
     void read_backdrop();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "dressing.h"
 #include "scene_meshes.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
@@ -60,10 +61,45 @@ struct Bounds {
 
 void add_object(Scene &scene, const char *name, Surface surface, Fabric fabric) {
     const auto index = static_cast<std::uint32_t>(scene.surfaces.size());
+    const auto of_fabric = static_cast<std::uint32_t>(scene.fabrics.size());
     scene.surfaces.push_back(std::move(surface));
     scene.fabrics.push_back(std::move(fabric));
-    scene.objects.push_back({name, {index}, {index}});
+    scene.objects.push_back({name, {index}, {of_fabric}});
 }
+
+/// The fabrics of a garment: its own first, each file once.
+struct Cloths {
+    std::vector<Fabric> fabrics{};
+    std::optional<FabricIndex> back{};
+    std::vector<PanelEntry> entries{};
+
+    Cloths(const TryOn &job, const Progress &progress) {
+        const auto index = [&](const fs::path &file) -> std::optional<std::size_t> {
+            if (file.empty())
+                return {};
+            const auto known = std::find(files_.begin(), files_.end(), file);
+            if (known == files_.end()) {
+                files_.push_back(file);
+                fabrics.push_back(read_fabric(file, progress));
+                return files_.size() - 1;
+            }
+            return static_cast<std::size_t>(known - files_.begin());
+        };
+        fabrics.push_back(read_fabric(job.fabric, progress));
+        files_.emplace_back(); // dyed for each render, so that no panel shares it
+        if (const auto behind = index(job.back))
+            back = FabricIndex{static_cast<std::uint32_t>(*behind)};
+        for (const PanelCloth &panel : job.panels)
+            entries.push_back({.pattern = panel.pattern,
+                               .where = "panel '" + panel.pattern + "'",
+                               .fabric = index(panel.fabric),
+                               .back = index(panel.back)});
+    }
+    bool need_frames() const { return std::any_of(fabrics.begin(), fabrics.end(), needs_frames); }
+
+  private:
+    std::vector<fs::path> files_{};
+};
 
 /// Key light, fill light and backdrop about what the camera frames.
 void light(Scene &scene, const Bounds &bounds, double azimuth) {
@@ -162,7 +198,7 @@ std::vector<glm::dvec3> frame_points_of(const garment::PolygonMesh &mesh,
 Stage make_stage(const TryOn &job, const Progress &progress) {
     Stage stage{.meshes = SceneMeshes(progress)};
     Scene &scene = stage.shown.scene;
-    Fabric fabric = read_fabric(job.fabric, progress);
+    const Cloths cloths(job, progress);
     garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
                              .seams = job.seams,
                              .subdivide = {.level = job.level, .tolerance = job.tolerance},
@@ -171,22 +207,25 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     garment::Options body_options = options;
     body_options.want_frames = false;
     options.strict = job.strict;
-    options.want_frames = needs_frames(fabric);
+    options.want_frames = cloths.need_frames();
 
     garment::GarmentFrames frames =
         garment::read_frames(job.garment, job.frames, job.morph_targets, progress);
     stage.further = std::move(frames.further);
     if (options.want_frames && !job.invented_grain && frames.first.mesh.uv.empty())
         throw Error(
-            {"the mesh has no UV, and '" + fabric.name + "' has a warp direction",
+            {"the mesh has no UV, and '" + cloths.fabrics.front().name + "' has a warp direction",
              job.garment.string(),
              "expected the UVs of the panels, or a stated direction of the warp (--grain)"});
-    add_object(scene, "garment",
-               stage.meshes.add({.file = std::move(frames.first),
-                                 .where = job.garment.string(),
-                                 .options = options,
-                                 .tolerance_px = job.tolerance_px}),
-               std::move(fabric));
+    Dressing dressing =
+        dress({0}, cloths.back, cloths.entries, cloths.fabrics, frames.first, options);
+    scene.fabrics = cloths.fabrics;
+    scene.surfaces.push_back(stage.meshes.add({.file = std::move(frames.first),
+                                               .where = job.garment.string(),
+                                               .options = options,
+                                               .tolerance_px = job.tolerance_px}));
+    scene.objects.push_back(
+        {"garment", {0}, dressing.fabric, dressing.back, std::move(dressing.panels)});
     stage.meshes.add_points(
         frame_points_of(stage.meshes.file(0).mesh, stage.further, options.metres_per_unit));
     if (!job.body.empty())

@@ -173,9 +173,9 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         if (!point.is_finite())
             return spoil(radiance);
         if (path.vertex == 0 && first)
-            *first = {true, hit.distance, point.frame.normal, point.frame.warp, hit.object};
+            *first = {true, hit.distance, point.frame.normal, point.warp, hit.object};
         const Vertex vertex(scene_, point, path.direction);
-        const Colours &colours = scene_.colours[point.fabric];
+        const Colours &colours = scene_.colours[point.colours];
 
         // Direct light, found by sampling the lights
         sample_lights(path, vertex, colours);

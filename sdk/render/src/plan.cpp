@@ -20,9 +20,7 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
             p.skips.push_back({std::move(what), std::move(saves)});
         return idle && settings.skip;
     };
-    std::vector<bool> used(scene.fabrics.size(), false);
-    for (const Object &object : scene.objects)
-        used[object.fabric.value] = true;
+    const std::vector<bool> used = fabrics_in_use(scene);
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
         const Fabric &fabric = scene.fabrics[i];
         if (skip(!used[i], "fabric '" + fabric.name + "' dresses nothing", "its tables"))

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "tsuya/sdk/error.h"
 
@@ -56,6 +57,13 @@ Colours colours_of(const Material &material, const SpectralBasis &basis) {
     return c;
 }
 
+// Of the fabric's own back, in the frame that has the weft in the place of the warp.
+Colours exchanged(Colours c) {
+    std::swap(c.weft, c.warp);
+    std::swap(c.weft_body, c.warp_body);
+    return c;
+}
+
 MeanColours means_of(const Colours &c, int channels) {
     const auto mean = [&](const ChannelValues &v) {
         return std::accumulate(v.begin(), v.begin() + channels, 0.0f) /
@@ -74,14 +82,13 @@ PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool 
       accelerator(the_scene, centre, progress),
       lights(the_scene, the_plan, centre, radius_of(the_scene, centre)) {
     prepare_fabrics(keep_idle_parts, basis, kept, progress);
+    prepare_sides();
     prepare_camera();
 }
 
 void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis,
                                     KeptMaterials *kept, const Progress &progress) {
-    std::vector<bool> used(scene.fabrics.size(), keep_idle_parts);
-    for (const Object &object : scene.objects)
-        used[object.fabric.value] = true;
+    const std::vector<bool> used = fabrics_in_use(scene);
     KeptMaterials own;
     KeptMaterials &materials = kept ? *kept : own;
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
@@ -89,10 +96,35 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
             throw Interrupted("stopped while the fabrics were prepared");
         const Fabric &fabric = scene.fabrics[i];
         const Material material =
-            used[i] ? materials.resolve(fabric, "fabrics." + fabric.name, progress) : Material{};
+            used[i] || keep_idle_parts
+                ? materials.resolve(fabric, "fabrics." + fabric.name, progress)
+                : Material{};
         colours.push_back(colours_of(material, basis));
         shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
     }
+    for (std::size_t i = 0; i < scene.fabrics.size(); ++i)
+        colours.push_back(exchanged(colours[i]));
+}
+
+void PreparedScene::prepare_sides() {
+    for (const Object &object : scene.objects) {
+        const Surface &surface = scene.surfaces[object.surface.value];
+        const auto sides = [&](FabricIndex face, const std::optional<FabricIndex> &back) {
+            return Sides{face.value, back.value_or(face).value, !back && !surface.warp.empty()};
+        };
+        std::vector<Sides> of_panel(object.panels.empty() ? 1 : panel_count(surface),
+                                    sides(object.fabric, object.back));
+        for (const PanelFabric &panel : object.panels)
+            of_panel[panel.panel] = sides(panel.fabric, panel.back);
+        sides_.push_back(std::move(of_panel));
+    }
+}
+
+PreparedScene::Sides PreparedScene::sides_at(std::uint32_t object, const Surface &surface,
+                                             std::uint32_t triangle) const {
+    const std::vector<Sides> &of_panel = sides_[object];
+    return of_panel.size() == 1 || surface.panel.empty() ? of_panel.front()
+                                                         : of_panel[surface.panel[triangle]];
 }
 
 void PreparedScene::prepare_camera() {
@@ -123,10 +155,15 @@ SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) co
     SurfacePoint point;
     // From the corners: more exact than along the ray
     point.position = interpolate(accelerator.positions(hit.object));
-    point.fabric = object.fabric.value;
+    const Sides sides = sides_at(hit.object, surface, hit.triangle);
     glm::vec3 geometric = hit.face_normal / glm::length(hit.face_normal);
-    if (glm::dot(geometric, direction) > 0)
+    const bool behind = glm::dot(geometric, direction) > 0;
+    if (behind)
         geometric = -geometric;
+    const bool exchanged = behind && sides.own_back;
+    point.fabric = behind ? sides.back : sides.face;
+    point.colours =
+        point.fabric + (exchanged ? static_cast<std::uint32_t>(scene.fabrics.size()) : 0);
     glm::vec3 normal = interpolate(surface.normal);
     const float length = glm::length(normal);
     normal = length > 0 ? normal / length : geometric;
@@ -138,6 +175,9 @@ SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) co
     point.geometric_normal = geometric;
     point.frame =
         surface.warp.empty() ? make_frame(normal) : make_frame(normal, interpolate(surface.warp));
+    point.warp = point.frame.warp;
+    if (exchanged)
+        point.frame = {.weft = point.frame.warp, .warp = -point.frame.weft, .normal = normal};
     return point;
 }
 

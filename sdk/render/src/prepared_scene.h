@@ -24,7 +24,9 @@ struct SurfacePoint {
     glm::vec3 position;
     glm::vec3 geometric_normal; // of the triangle
     Frame frame;                // its normal is the shading normal
+    glm::vec3 warp;             // of the cloth: also where the frame has the weft in its place
     std::uint32_t fabric;
+    std::uint32_t colours; // into PreparedScene::colours
 
     // False where the triangle is too small for float numbers to have its normal.
     bool is_finite() const { return glm::dot(geometric_normal, geometric_normal) > 0.5f; }
@@ -47,7 +49,7 @@ struct PreparedScene {
     Accelerator accelerator;
     Lights lights;
     std::vector<Shading> shading{};    // per fabric
-    std::vector<Colours> colours{};    // per fabric
+    std::vector<Colours> colours{};    // per fabric, then of its own back
     glm::vec3 eye, forward, right, up; // camera, scaled to the image plane at distance 1
 
     // The direction of the camera ray through a place of the picture, in pixels.
@@ -56,9 +58,18 @@ struct PreparedScene {
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
 
   private:
+    // The fabrics of the two sides of a panel.
+    struct Sides {
+        std::uint32_t face, back;
+        bool own_back; // the face's, with the yarn systems exchanged
+    };
+    Sides sides_at(std::uint32_t object, const Surface &surface, std::uint32_t triangle) const;
+    void prepare_sides();
     void prepare_camera();
     void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials *kept,
                          const Progress &progress);
+
+    std::vector<std::vector<Sides>> sides_{}; // per object, per panel; one where all are alike
 };
 
 } // namespace tsuya

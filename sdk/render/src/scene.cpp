@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "tsuya/sdk/angle.h"
@@ -35,38 +36,63 @@ struct SceneCheck {
     const Scene &scene;
     Problems problems{};
 
-    void need(bool rule, std::string what, std::string where, std::string accepted) {
-        problems.need(rule, std::move(what), std::move(where), std::move(accepted));
+    bool need(bool rule, std::string what, std::string where, std::string accepted) {
+        return problems.need(rule, std::move(what), std::move(where), std::move(accepted));
     }
 
     void objects() {
         need(!scene.objects.empty(), "the scene has no object", "objects", "expected at least one");
-        for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-            const Object &object = scene.objects[i];
-            const std::string where = "objects[" + std::to_string(i) + "]";
-            const bool surface = object.surface.value < scene.surfaces.size();
-            const bool fabric = object.fabric.value < scene.fabrics.size();
-            need(surface, "no surface " + std::to_string(object.surface.value), where + ".surface",
-                 "expected an index below " + std::to_string(scene.surfaces.size()));
-            need(fabric, "no fabric " + std::to_string(object.fabric.value), where + ".fabric",
-                 "expected an index below " + std::to_string(scene.fabrics.size()));
-            if (!surface || !fabric)
-                continue;
-            const Fabric &cloth = scene.fabrics[object.fabric.value];
-            need(!needs_frames(cloth) || !scene.surfaces[object.surface.value].warp.empty(),
-                 "fabric '" + cloth.name + "' needs yarn directions and the surface has none",
-                 where, "expected a surface with UV, or a grain direction to invent one");
-        }
+        for (std::size_t i = 0; i < scene.objects.size(); ++i)
+            check_object(scene.objects[i], "objects[" + std::to_string(i) + "]");
         for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
             check_shape(scene.surfaces[i], "surfaces[" + std::to_string(i) + "]");
     }
 
+    void check_object(const Object &object, const std::string &where) {
+        const bool dresses =
+            need(object.surface.value < scene.surfaces.size(),
+                 "no surface " + std::to_string(object.surface.value), where + ".surface",
+                 "expected an index below " + std::to_string(scene.surfaces.size()));
+        const Surface *const surface = dresses ? &scene.surfaces[object.surface.value] : nullptr;
+        check_sides(object.fabric, object.back, surface, where);
+        if (!surface || object.panels.empty())
+            return;
+        const std::size_t panels = panel_count(*surface);
+        std::set<std::uint32_t> seen;
+        for (std::size_t p = 0; p < object.panels.size(); ++p) {
+            const PanelFabric &panel = object.panels[p];
+            const std::string place = where + ".panels[" + std::to_string(p) + "]";
+            check_sides(panel.fabric, panel.back, surface, place);
+            if (need(panel.panel < panels, "no panel " + std::to_string(panel.panel), place,
+                     "expected an index below " + std::to_string(panels)))
+                need(seen.insert(panel.panel).second,
+                     "panel " + std::to_string(panel.panel) + " has two fabrics", place,
+                     "expected each panel once");
+        }
+    }
+
+    void check_sides(FabricIndex face, const std::optional<FabricIndex> &back,
+                     const Surface *surface, const std::string &where) {
+        check_cloth(face, surface, where, ".fabric");
+        if (back)
+            check_cloth(*back, surface, where, ".back");
+    }
+
+    void check_cloth(FabricIndex fabric, const Surface *surface, const std::string &where,
+                     const char *key) {
+        if (!need(fabric.value < scene.fabrics.size(), "no fabric " + std::to_string(fabric.value),
+                  where + key, "expected an index below " + std::to_string(scene.fabrics.size())) ||
+            !surface)
+            return;
+        const Fabric &cloth = scene.fabrics[fabric.value];
+        need(!needs_frames(cloth) || !surface->warp.empty(),
+             "fabric '" + cloth.name + "' needs yarn directions and the surface has none", where,
+             "expected a surface with UV, or a grain direction to invent one");
+    }
+
     // Of what is rendered.
     void fabrics() {
-        std::vector<bool> used(scene.fabrics.size(), false);
-        for (const Object &object : scene.objects)
-            if (object.fabric.value < used.size())
-                used[object.fabric.value] = true;
+        const std::vector<bool> used = fabrics_in_use(scene);
         for (std::size_t i = 0; i < used.size(); ++i)
             try {
                 if (used[i])
@@ -157,6 +183,21 @@ struct SceneCheck {
 };
 
 } // namespace
+
+std::vector<bool> fabrics_in_use(const Scene &scene) {
+    std::vector<bool> used(scene.fabrics.size(), false);
+    const auto use = [&](FabricIndex face, const std::optional<FabricIndex> &back) {
+        for (const FabricIndex fabric : {face, back.value_or(face)})
+            if (fabric.value < used.size())
+                used[fabric.value] = true;
+    };
+    for (const Object &object : scene.objects) {
+        use(object.fabric, object.back);
+        for (const PanelFabric &panel : object.panels)
+            use(panel.fabric, panel.back);
+    }
+    return used;
+}
 
 void check_scene(const Scene &scene) {
     SceneCheck check{scene};

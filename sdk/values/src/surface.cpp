@@ -28,6 +28,13 @@ void check_unit(const std::vector<glm::vec3> &directions, const Surface &surface
 
 } // namespace
 
+std::size_t panel_count(const Surface &surface) {
+    std::size_t count = std::max<std::size_t>(surface.panel_name.size(), 1);
+    for (const std::uint32_t panel : surface.panel)
+        count = std::max<std::size_t>(count, panel + std::size_t{1});
+    return count;
+}
+
 void check_surface(const Surface &s, const std::string &where) {
     if (s.triangle.empty())
         throw Error({"the surface has no triangle", where, "expected at least one"});

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "tsuya/garment/subdivide.h"
@@ -21,6 +22,8 @@ struct FrameOptions {
     /// along the upward vertical (+y) in the tangent plane, turned by this many radians
     /// counter-clockwise about the normal (0: vertical, pi/2: horizontal).
     std::optional<double> invented_grain{};
+    /// Names of panels whose fabric has no yarn directions: nothing is asked of their UVs.
+    std::set<std::string> plain{};
     double metres_per_uv = 1.0;        ///< metres of cloth per unit of UV
     double max_degenerate_area = 0.05; ///< share of the area, 0 to 1, above which it is an error
 };

@@ -11,6 +11,14 @@
 
 namespace tsuya::garment {
 
+/// What the file calls the faces of a panel; empty where it does not say.
+struct PanelLabel {
+    std::string object{}, group{}, material{};
+    std::string island{}; ///< see panels.h
+
+    bool operator==(const PanelLabel &) const = default;
+};
+
 /// Polygons of any size. A corner is one vertex of one face; the corners of face f are
 /// `face_offset[f]` up to `face_offset[f + 1]`, counter-clockwise seen from outside.
 struct PolygonMesh {
@@ -19,8 +27,9 @@ struct PolygonMesh {
     std::vector<std::uint32_t> face_offset{0};    ///< faces + 1 entries, the first 0
     std::vector<std::uint32_t> corner_position{}; ///< per corner, into `position`
     std::vector<std::int32_t> corner_uv{};        ///< per corner, into `uv`; -1: no UV
-    std::vector<std::uint16_t> face_panel{};      ///< per face, into `panel_name`
-    std::vector<std::string> panel_name{};        ///< empty: the file names no panel
+    std::vector<std::uint32_t> face_panel{};      ///< per face, into `panel_name`
+    std::vector<std::string> panel_name{};        ///< no two alike; empty: the file names none
+    std::vector<PanelLabel> panel_label{};        ///< as `panel_name`, or empty
 
     /// Number of faces.
     std::size_t face_count() const { return face_offset.size() - 1; }
@@ -36,7 +45,7 @@ struct PolygonMesh {
     }
     /// Appends a face; the two arrays are equally long.
     void add_face(const std::vector<std::uint32_t> &positions, const std::vector<std::int32_t> &uvs,
-                  std::uint16_t panel);
+                  std::uint32_t panel);
 };
 
 /// Throws Error naming `where` unless every index is in range, every face has 3 corners or more,
@@ -59,9 +68,5 @@ UvIslands uv_islands(const PolygonMesh &mesh);
 /// Gives corners of one vertex and panel whose UVs have exactly equal values the same UV index, so
 /// that files with one UV a corner are continuous.
 void share_equal_uvs(PolygonMesh &mesh);
-
-/// Names one panel for each UV island, `island0`, `island1`, ... in the order of their first faces;
-/// for files without groups. Throws Error where there are more than 65535 islands.
-void panels_from_uv_islands(PolygonMesh &mesh);
 
 } // namespace tsuya::garment

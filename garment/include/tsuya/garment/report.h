@@ -11,6 +11,8 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/garment/polygon_mesh.h"
+
 namespace tsuya::garment {
 
 /// How much a finding matters: `note` is for the record, `warning` may show in the picture and is
@@ -45,8 +47,10 @@ struct Percentiles {
 /// One panel of the garment: a named one, or a UV island where the file names none.
 struct PanelReport {
     std::string name{};
+    PanelLabel label{}; ///< what the file calls it; also by these it can be named, see panels_named
     std::size_t faces = 0;
-    double area = 0; ///< square metres of drape
+    double area = 0;                   ///< square metres of drape
+    glm::dvec3 lower{0.0}, upper{0.0}; ///< bounding box, metres
     /// Mean direction of the warp (+v) in space, unit; 0 where the panel has no UV.
     glm::dvec3 warp{0.0};
     /// Between the warp's line and the vertical (+y), radians, 0 to pi/2, mean over the area: small

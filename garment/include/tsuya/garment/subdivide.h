@@ -65,10 +65,10 @@ struct LimitMesh {
     std::vector<glm::vec2> uv{};        ///< of the control mesh; empty if it has none
     std::vector<glm::vec3> dp_du{};     ///< metres per unit of u; 0 where the UV is degenerate
     std::vector<glm::vec3> dp_dv{};     ///< metres per unit of v; 0 where the UV is degenerate
-    std::vector<std::uint16_t> panel{}; ///< per vertex
+    std::vector<std::uint32_t> panel{}; ///< per vertex
     std::vector<std::uint32_t> place{}; ///< first vertex at the same point of the surface
     std::vector<glm::uvec3> triangle{};
-    std::vector<std::uint16_t> triangle_panel{};
+    std::vector<std::uint32_t> triangle_panel{};
     std::vector<std::string> panel_name{};
     std::size_t repaired_normals = 0; ///< see Report::repaired_normals
 };

@@ -15,6 +15,7 @@
 
 #include "tsuya/color/config.h"
 #include "tsuya/garment/garment.h"
+#include "tsuya/scene/panel_entry.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/scene/studio.h"
 #include "tsuya/sdk/render.h"
@@ -40,7 +41,9 @@ struct MeshEntry {
     std::string name{};
     std::string where{}; ///< file:line:column
     std::filesystem::path mesh{};
-    std::size_t fabric = 0; ///< into SceneFile::fabrics
+    std::size_t fabric = 0;            ///< into SceneFile::fabrics
+    std::optional<std::size_t> back{}; ///< the same; see Object::back
+    std::vector<PanelEntry> panels{};  ///< `[garments.NAME.panels."PATTERN"]`
     garment::Options options{};
     std::optional<double> tolerance_px{}; ///< of the scene's camera; in place of the level
     glm::dvec3 translate{0, 0, 0};        ///< metres

@@ -29,6 +29,14 @@ inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_erro
 /// one name.
 void check_dyes(const std::vector<std::string> &specs);
 
+/// What some panels of a garment are of, in place of its fabric. The last that names a panel
+/// counts.
+struct PanelCloth {
+    std::string pattern{};          ///< see garment::panels_named
+    std::filesystem::path fabric{}; ///< F.fabric.toml; empty: the garment's
+    std::filesystem::path back{};   ///< F.fabric.toml; empty: the fabric's own back
+};
+
 /// What is tried on and how it is shown.
 struct TryOn {
     std::filesystem::path garment{}; ///< a mesh with the UV of its panels
@@ -38,6 +46,8 @@ struct TryOn {
     bool morph_targets = false;             ///< of the garment (glTF): frames before `frames`
     std::filesystem::path body{};           ///< a mesh; empty: none
     std::filesystem::path fabric{};         ///< F.fabric.toml
+    std::filesystem::path back{};           ///< F.fabric.toml seen from behind; empty: its own back
+    std::vector<PanelCloth> panels{};       ///< of the garment; they keep their own dyes
     std::optional<double> tolerance{};      ///< metres; in place of `level`, see SubdivideOptions
     std::optional<double> tolerance_px{};   ///< pixels; in place of `level`, see ViewTolerance
     std::optional<double> invented_grain{}; ///< of a garment without UV, see FrameOptions

@@ -35,11 +35,23 @@ inline constexpr double kLargestRadiance = 1e12;
 inline constexpr double kLargestLength = 1e9;   ///< of every coordinate, metres
 inline constexpr double kSmallestLight = 1e-14; ///< area of a rectangle, square metres
 
+/// The fabric of one panel of an object, in place of the object's own.
+struct PanelFabric {
+    std::uint32_t panel = 0; ///< of the surface's
+    FabricIndex fabric{};
+    std::optional<FabricIndex> back{}; ///< as Object::back
+};
+
 /// A surface dressed in a fabric.
 struct Object {
     std::string name{};
     SurfaceIndex surface{};
     FabricIndex fabric{};
+    /// What is seen from behind (a lining), with the grain of the face. Empty: the fabric's own
+    /// back: where warp floats on the face, weft floats behind, so it is the face with the two yarn
+    /// systems exchanged. Cloth without yarn directions has two equal sides.
+    std::optional<FabricIndex> back{};
+    std::vector<PanelFabric> panels{}; ///< each panel once; those not here have `fabric` and `back`
 };
 
 /// A rectangle that shines to the side of cross(edge_u, edge_v). Radiance is relative to the
@@ -72,6 +84,10 @@ struct Scene {
     std::optional<Environment> environment{};
     Camera camera{};
 };
+
+/// Which fabrics dress something, in the order of Scene::fabrics; indices out of range are left
+/// out.
+std::vector<bool> fabrics_in_use(const Scene &scene);
 
 /// Throws Error with every broken rule, also of fabrics in use: an index out of range, no light, no
 /// object, a light without area, a radiance or length out of bounds, a camera that looks nowhere.

@@ -23,9 +23,12 @@ struct Surface {
                                  ///< encloses 90 degrees less the shear of the drape; may be empty
     std::vector<glm::vec2> uv{}; ///< metres of cloth
     std::vector<glm::uvec3> triangle{};
-    std::vector<std::uint16_t> panel{}; ///< per triangle; empty: all of panel 0
+    std::vector<std::uint32_t> panel{}; ///< per triangle; empty: all of panel 0
     std::vector<std::string> panel_name{};
 };
+
+/// Number of panels that its triangles or names have, at least 1.
+std::size_t panel_count(const Surface &surface);
 
 /// Throws Error naming `where` if the surface breaks its own rules: index out of range, array
 /// lengths, not finite, no triangle.

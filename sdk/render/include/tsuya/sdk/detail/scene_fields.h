@@ -28,11 +28,20 @@ template <class F, detail::MaybeConst<Surface> T> void each_field(F &&f, T &surf
     f(detail::Field{.key = "panel_name", .in_picture = false}, panel_name);
 }
 
+template <class F, detail::MaybeConst<PanelFabric> T> void each_field(F &&f, T &panel_fabric) {
+    auto &[panel, fabric, back] = panel_fabric;
+    f(detail::Field{"panel"}, panel);
+    f(detail::Field{"fabric"}, fabric);
+    f(detail::Field{"back"}, back);
+}
+
 template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &object) {
-    auto &[name, surface, fabric] = object;
+    auto &[name, surface, fabric, back, panels] = object;
     f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"surface"}, surface);
     f(detail::Field{"fabric"}, fabric);
+    f(detail::Field{"back"}, back);
+    f(detail::Field{"panels"}, panels);
 }
 
 template <class F, detail::MaybeConst<RectangleLight> T> void each_field(F &&f, T &light) {

@@ -1,0 +1,104 @@
+#include "tsuya/garment/panels.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fnmatch.h>
+
+#include "mesh/islands.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::garment {
+namespace {
+
+// The panel and the island of a face.
+using Piece = std::pair<std::uint32_t, std::uint32_t>;
+
+// By the panels that the mesh has, if they are named.
+PanelLabel label_of(const PolygonMesh &mesh, std::uint32_t panel, const std::string &island) {
+    PanelLabel label;
+    if (panel < mesh.panel_label.size())
+        label = mesh.panel_label[panel];
+    label.island = island;
+    return label;
+}
+
+bool matches(const std::string &name, const std::string &pattern) {
+    return !name.empty() && (name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
+}
+
+} // namespace
+
+void name_islands(PolygonMesh &mesh, const SetNumbers &islands) {
+    std::map<Piece, std::uint32_t> number;
+    std::vector<Piece> pieces;
+    std::map<std::uint32_t, std::size_t> islands_of_panel;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const Piece piece{mesh.face_panel[f], islands.of[f]};
+        const auto [at, added] =
+            number.try_emplace(piece, static_cast<std::uint32_t>(pieces.size()));
+        if (added) {
+            pieces.push_back(piece);
+            ++islands_of_panel[piece.first];
+        }
+        mesh.face_panel[f] = at->second;
+    }
+    std::vector<std::string> names;
+    std::vector<PanelLabel> labels;
+    for (const auto &[panel, island] : pieces) {
+        const std::string name = "island" + std::to_string(island);
+        labels.push_back(label_of(mesh, panel, name));
+        names.push_back(mesh.panel_name.empty()        ? name
+                        : islands_of_panel[panel] == 1 ? mesh.panel_name[panel]
+                                                       : mesh.panel_name[panel] + "/" + name);
+    }
+    mesh.panel_name = std::move(names);
+    mesh.panel_label = std::move(labels);
+}
+
+void split_panels_by_island(PolygonMesh &mesh) {
+    name_islands(mesh, find_islands(mesh, EdgeTable(mesh)));
+}
+
+void split_panels_by_island(MeshFile &file) {
+    split_panels_by_island(file.mesh);
+    std::vector<FabricHint> hints;
+    for (FabricHint &hint : file.hints) {
+        const std::string island = hint.panel + "/island";
+        for (const std::string &panel : file.mesh.panel_name)
+            if (panel == hint.panel || panel.starts_with(island)) {
+                hints.push_back(hint);
+                hints.back().panel = panel;
+            }
+    }
+    file.hints = std::move(hints);
+}
+
+std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_view pattern,
+                                        const std::string &where) {
+    const std::string text(pattern);
+    std::vector<std::uint32_t> found;
+    std::set<std::string> known;
+    for (std::uint32_t p = 0; p < mesh.panel_name.size(); ++p) {
+        const PanelLabel label = p < mesh.panel_label.size() ? mesh.panel_label[p] : PanelLabel{};
+        bool matched = false;
+        for (const std::string &name :
+             {mesh.panel_name[p], label.object, label.group, label.material, label.island}) {
+            matched = matched || matches(name, text);
+            if (!name.empty())
+                known.insert(name);
+        }
+        if (matched)
+            found.push_back(p);
+    }
+    if (!found.empty())
+        return found;
+    if (known.empty())
+        throw Error({"the mesh names no panel", where,
+                     "expected a mesh with groups, objects, materials or UVs"});
+    const std::vector<std::string> names(known.begin(), known.end());
+    throw Error({"no panel is named '" + text + "'", where, accepted_names(pattern, names)});
+}
+
+} // namespace tsuya::garment
