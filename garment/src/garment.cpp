@@ -113,8 +113,9 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options, const std::
     PolygonMesh metres = mesh;
     for (glm::dvec3 &p : metres.position)
         p *= options.metres_per_unit;
-    Prepared prepared =
-        MeshRepair(std::move(metres), options.seams, options.want_frames, progress).run();
+    Prepared prepared = MeshRepair(std::move(metres), options.seams, options.want_frames,
+                                   options.frames.plain, progress)
+                            .run();
     if (options.want_frames) {
         prepared.report.metres_per_uv = choose_uv_scale(options, prepared.report);
     } else {

@@ -123,7 +123,7 @@ Edges edges_of(const Surface &surface) {
     std::vector<std::uint32_t> place;
     for (std::uint32_t v = 0; v < surface.position.size(); ++v)
         place.push_back(first.try_emplace(surface.position[v], v).first->second);
-    std::vector<std::set<std::uint16_t>> panels(place.size());
+    std::vector<std::set<std::uint32_t>> panels(place.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
     for (std::size_t f = 0; f < surface.triangle.size(); ++f)
         for (int c = 0; c < 3; ++c) {

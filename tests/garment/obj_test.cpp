@@ -211,12 +211,5 @@ TEST(PolygonMesh, BadIndicesAreErrors) {
     EXPECT_THROW(check_indices(m, "cube"), Error);
 }
 
-TEST(PolygonMesh, IslandsBecomePanels) {
-    PolygonMesh m = test::both(test::panel(2, 2, 0.1), test::panel(2, 2, 0.1, {1, 0, 0}));
-    panels_from_uv_islands(m);
-    EXPECT_EQ(m.panel_name, (std::vector<std::string>{"island0", "island1"}));
-    EXPECT_EQ(m.face_panel, (std::vector<std::uint16_t>{0, 0, 0, 0, 1, 1, 1, 1}));
-}
-
 } // namespace
 } // namespace tsuya::garment

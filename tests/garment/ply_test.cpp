@@ -73,7 +73,7 @@ TEST(Ply, WritesWhatItReadsBack) {
     EXPECT_NE(bytes.find("property float warp_x"), std::string::npos);
     EXPECT_NE(bytes.find("comment panel 0 front"), std::string::npos);
     const std::size_t header = bytes.find("end_header\n") + 11;
-    EXPECT_EQ(bytes.size() - header, 3 * (24 + 12 + 8 + 24) + (1 + 12 + 2u));
+    EXPECT_EQ(bytes.size() - header, 3 * (24 + 12 + 8 + 24) + (1 + 12 + 4u));
     for (std::size_t cut = header; cut < bytes.size(); ++cut)
         EXPECT_THROW(parse_ply(bytes.substr(0, cut), "m"), Error) << cut;
     std::filesystem::remove(path);

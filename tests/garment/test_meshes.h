@@ -50,12 +50,12 @@ inline PolygonMesh panel(int n_x, int n_y, double step, glm::dvec3 corner = glm:
 /// Both meshes side by side; panels are renumbered and named `panel0`, `panel1`, ...
 inline PolygonMesh both(const PolygonMesh &a, const PolygonMesh &b) {
     PolygonMesh mesh = a;
-    std::uint16_t panels = 0;
-    for (const std::uint16_t p : a.face_panel)
-        panels = std::max<std::uint16_t>(panels, static_cast<std::uint16_t>(p + 1));
+    std::uint32_t panels = 0;
+    for (const std::uint32_t p : a.face_panel)
+        panels = std::max(panels, p + 1);
     mesh.position.insert(mesh.position.end(), b.position.begin(), b.position.end());
     mesh.uv.insert(mesh.uv.end(), b.uv.begin(), b.uv.end());
-    std::uint16_t last = panels;
+    std::uint32_t last = panels;
     for (std::size_t f = 0; f < b.face_count(); ++f) {
         std::vector<std::uint32_t> v;
         std::vector<std::int32_t> t;
@@ -64,12 +64,12 @@ inline PolygonMesh both(const PolygonMesh &a, const PolygonMesh &b) {
             t.push_back(
                 b.corner_uv[c] < 0 ? -1 : b.corner_uv[c] + static_cast<std::int32_t>(a.uv.size()));
         }
-        const auto p = static_cast<std::uint16_t>(panels + b.face_panel[f]);
+        const auto p = panels + b.face_panel[f];
         last = std::max(last, p);
         mesh.add_face(v, t, p);
     }
     mesh.panel_name.clear();
-    for (int p = 0; p <= last; ++p)
+    for (std::uint32_t p = 0; p <= last; ++p)
         mesh.panel_name.push_back("panel" + std::to_string(p));
     return mesh;
 }

@@ -166,11 +166,17 @@ void MeshRepair::measure_uv() {
     std::vector<std::pair<double, double>> weft, warp, angle;
     PanelSums panels(mesh);
     std::vector<double> face_sign(mesh.face_count(), 0.0);
+    const auto is_plain = [&](std::size_t f) {
+        return mesh.face_panel[f] < mesh.panel_name.size() &&
+               plain_.contains(mesh.panel_name[mesh.face_panel[f]]);
+    };
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         look_at_stop(progress_, f);
         const FaceMeasure m = measure_face(mesh, f);
         report.area += m.area;
         panels.add_face(mesh, f, m.area);
+        if (is_plain(f))
+            continue;
         if (!has_uv(mesh, f)) {
             ++report.faces_without_uv;
             keep_place(report.first_place, "faces_without_uv", first_point(f));

@@ -94,12 +94,12 @@ glm::dvec3 MeshRepair::first_point(std::size_t face) const {
 
 Prepared prepare(PolygonMesh metres, const SeamOptions &options, const Progress &progress) {
     check_indices(metres, "mesh");
-    return MeshRepair(std::move(metres), options, true, progress).run();
+    return MeshRepair(std::move(metres), options, true, {}, progress).run();
 }
 
 Prepared make_manifold(PolygonMesh mesh) {
     check_indices(mesh, "mesh");
-    return MeshRepair(std::move(mesh), {}, true, {}).run_make_manifold();
+    return MeshRepair(std::move(mesh), {}, true, {}, {}).run_make_manifold();
 }
 
 Report check(PolygonMesh metres, const SeamOptions &options, const Progress &progress) {

@@ -3,6 +3,7 @@
 /// From the mesh of a file to one that can be subdivided.
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,10 @@ class MeshRepair {
   public:
     /// \param metres a mesh with valid indices, positions in metres
     /// \param cloth false: nobody looks at the UVs (a body), so there are no findings about them
-    MeshRepair(PolygonMesh metres, const SeamOptions &options, bool cloth, Progress progress)
-        : mesh_(std::move(metres)), options_(options), cloth_(cloth),
+    /// \param plain names of panels of whose UVs there are no findings
+    MeshRepair(PolygonMesh metres, const SeamOptions &options, bool cloth,
+               std::set<std::string> plain, Progress progress)
+        : mesh_(std::move(metres)), options_(options), cloth_(cloth), plain_(std::move(plain)),
           progress_(std::move(progress)) {}
 
     /// All steps.
@@ -103,6 +106,7 @@ class MeshRepair {
     PositionRecipe recipe_{};
     SeamOptions options_;
     bool cloth_;
+    std::set<std::string> plain_;
     Progress progress_;
     bool joining_ = false; ///< findings about the topology belong to the joined mesh
     bool settled_ = false; ///< make_manifold would find nothing to do

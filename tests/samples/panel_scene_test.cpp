@@ -1,0 +1,142 @@
+// Fabrics by panel in scene files and try-ons.
+
+#include <gtest/gtest.h>
+
+#include "samples/scratch.h"
+#include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/scene_file.h"
+#include "tsuya/scene/tryon.h"
+#include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/error.h"
+
+namespace tsuya::scene {
+namespace {
+
+// Two pieces of cloth and a button without UV.
+std::string coat_obj() {
+    std::string text;
+    for (const char *const piece : {"g Front\nusemtl satin\n", "g Back\nusemtl satin\n"})
+        text += std::string("v -0.2 0 0\nv 0.2 0 0\nv 0.2 0.6 0\nv -0.2 0.6 0\nvt 0 0\nvt 0.4 0\n"
+                            "vt 0.4 0.6\nvt 0 0.6\n") +
+                piece + "f -4/-4 -3/-3 -2/-2 -1/-1\n";
+    return text + "v 0 0.3 0.1\nv 0.2 0.3 0.1\nv 0.2 0.5 0.1\nv 0 0.5 0.1\n"
+                  "g Button1\nusemtl horn\nf -4 -3 -2 -1\n";
+}
+
+std::string coat_scene(const std::string &garment) {
+    return "[camera]\nwidth = 16\nheight = 20\n"
+           "[fabrics.silk]\ndye = \"crimson\"\nfile = \"satin.toml\"\n[fabrics.lining]\n"
+           "[fabrics.horn]\nreflectance = 0.1\n[environment]\n"
+           "[garments.coat]\nmesh = \"coat.obj\"\nfabric = \"silk\"\n" +
+           garment;
+}
+
+struct PanelScene : testing::Test {
+    SceneFile read(const std::string &garment) const {
+        scratch.write("coat.obj", coat_obj());
+        std::filesystem::copy_file(find_fabric("black_satin", data_folder()),
+                                   scratch / "satin.toml",
+                                   std::filesystem::copy_options::overwrite_existing);
+        return read_scene_file(scratch.write("a.scene.toml", coat_scene(garment)));
+    }
+    Object coat(const std::string &garment) const {
+        return build_scene(read(garment)).scene.objects.at(0);
+    }
+    std::string problem(const std::string &garment) const {
+        try {
+            coat(garment);
+        } catch (const Error &error) {
+            return error.what();
+        }
+        return "accepted";
+    }
+
+    Scratch scratch{};
+};
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> fabrics_of(const Object &object) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+    for (const PanelFabric &panel : object.panels)
+        all.emplace_back(panel.panel, panel.fabric.value);
+    return all;
+}
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+TEST_F(PanelScene, PanelsHaveFabricsOfTheirOwn) {
+    const Object object = coat("back = \"lining\"\n[garments.coat.panels.\"But*\"]\n"
+                               "fabric = \"horn\"\n");
+    EXPECT_EQ(object.fabric.value, 0u);
+    ASSERT_TRUE(object.back);
+    EXPECT_EQ(object.back->value, 1u);
+    EXPECT_EQ(fabrics_of(object), (Pairs{{2, 2}}));
+    EXPECT_FALSE(object.panels[0].back); // a button has no lining
+    // By material, and the last counts
+    EXPECT_EQ(fabrics_of(coat("[garments.coat.panels.\"*\"]\nfabric = \"horn\"\n"
+                              "[garments.coat.panels.satin]\nfabric = \"silk\"\n"
+                              "[garments.coat.panels.Back]\nfabric = \"lining\"\n")),
+              (Pairs{{0, 0}, {1, 1}, {2, 2}}));
+}
+
+TEST_F(PanelScene, APanelMayHaveAnotherBackOrGrain) {
+    const std::string horn = "[garments.coat.panels.horn]\nfabric = \"horn\"\n";
+    const Object object = coat(horn + "[garments.coat.panels.Front]\nback = \"lining\"\n");
+    ASSERT_EQ(object.panels.size(), 2u);
+    EXPECT_EQ(object.panels[0].fabric.value, 0u);
+    ASSERT_TRUE(object.panels[0].back);
+    EXPECT_EQ(object.panels[0].back->value, 1u);
+    const Scene turned =
+        build_scene(read(horn + "[garments.coat.panels.\"F*\"]\ngrain_deg = 90\n")).scene;
+    const Surface &surface = turned.surfaces[0];
+    for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
+        const glm::vec3 warp = surface.warp[surface.triangle[t].x];
+        if (surface.panel[t] < 2) { // not the button
+            EXPECT_NEAR(std::abs(surface.panel[t] == 0 ? warp.x : warp.y), 1, 1e-5);
+        }
+    }
+}
+
+TEST_F(PanelScene, OfIslands) {
+    EXPECT_EQ(fabrics_of(coat("[garments.coat.panels.horn]\nfabric = \"horn\"\n"
+                              "[garments.coat.panels.island1]\nfabric = \"lining\"\n")),
+              (Pairs{{1, 1}, {2, 2}}));
+}
+
+TEST_F(PanelScene, WhatNamesNothingIsRefusedWithTheNearest) {
+    const std::string what = problem("[garments.coat.panels.Frnt]\nfabric = \"horn\"\n");
+    EXPECT_NE(what.find("no panel is named 'Frnt'"), std::string::npos) << what;
+    EXPECT_NE(what.find("Front"), std::string::npos) << what;
+    EXPECT_NE(what.find("a.scene.toml:"), std::string::npos) << what;
+    EXPECT_NE(problem("[garments.coat.panels.Front]\nfabric = \"hron\"\n").find("horn"),
+              std::string::npos);
+    EXPECT_NE(problem("[garments.coat.panels.Front]\nfabrik = \"horn\"\n").find("fabric"),
+              std::string::npos);
+    // The button has no UV, and a satin needs one
+    EXPECT_NE(problem("").find("no usable UV"), std::string::npos);
+}
+
+TEST_F(PanelScene, TryOn) {
+    scratch.write("coat.obj", coat_obj());
+    const auto fabric = [](const char *name) { return find_fabric(name, data_folder()); };
+    TryOn job{.garment = scratch / "coat.obj",
+              .fabric = fabric("black_satin"),
+              .back = fabric("black_lining"),
+              .panels = {{.pattern = "Button*", .fabric = fabric("plastic")},
+                         {.pattern = "Back", .back = fabric("black_taffeta")}},
+              .level = 0,
+              .width = 16,
+              .height = 20};
+    const Scene scene = make_try_on_scene(job).scene;
+    const Object &coat = scene.objects[0];
+    EXPECT_EQ(scene.fabrics[coat.fabric.value].name, "black_satin");
+    EXPECT_EQ(scene.fabrics[coat.back->value].name, "black_lining");
+    ASSERT_EQ(coat.panels.size(), 2u);
+    EXPECT_EQ(scene.fabrics[coat.panels[0].fabric.value].name, "black_satin");
+    EXPECT_EQ(scene.fabrics[coat.panels[0].back->value].name, "black_taffeta");
+    EXPECT_EQ(scene.fabrics[coat.panels[1].fabric.value].name, "plastic");
+    job.panels = {{.pattern = "Zip", .fabric = fabric("plastic")}};
+    EXPECT_THROW(make_try_on_scene(job), Error);
+}
+
+} // namespace
+} // namespace tsuya::scene
