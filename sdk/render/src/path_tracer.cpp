@@ -175,7 +175,11 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         if (path.vertex == 0 && first)
             *first = {true, hit.distance, point.frame.normal, point.warp, hit.object};
         const Vertex vertex(scene_, point, path.direction);
-        const Colours &colours = scene_.colours[point.colours];
+        Colours printed;
+        const bool is_printed = scene_.is_printed(point);
+        if (is_printed)
+            printed = scene_.printed(point, hit.distance, path.vertex == 0);
+        const Colours &colours = is_printed ? printed : scene_.colours[point.colours];
 
         // Direct light, found by sampling the lights
         sample_lights(path, vertex, colours);

@@ -81,9 +81,50 @@ PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool 
     : scene(the_scene), plan(the_plan), centre(middle_of(the_scene)),
       accelerator(the_scene, centre, progress),
       lights(the_scene, the_plan, centre, radius_of(the_scene, centre)) {
-    prepare_fabrics(keep_idle_parts, basis, kept, progress);
+    prepare_prints(basis);
     prepare_sides();
+    prepare_fabrics(keep_idle_parts, basis, kept, progress);
     prepare_camera();
+}
+
+void PreparedScene::prepare_prints(const SpectralBasis &basis) {
+    channels_ = basis.count;
+    if (scene.prints.empty())
+        return;
+    for (const Texture &texture : scene.textures)
+        textures_.emplace_back(texture);
+    for (const Print &print : scene.prints)
+        prints_.emplace_back(print, textures_, basis);
+    for (const Fabric &fabric : scene.fabrics)
+        dyes_.push_back(values_of(fabric.colours.dye, basis));
+}
+
+std::uint32_t PreparedScene::cloth_of(const Cloth &cloth) {
+    const auto known = std::find(cloths_.begin(), cloths_.end(), cloth);
+    const auto index = static_cast<std::uint32_t>(known - cloths_.begin());
+    if (known == cloths_.end())
+        cloths_.push_back(cloth);
+    return index;
+}
+
+void PreparedScene::prepare_sides() {
+    for (std::uint32_t i = 0; i < scene.fabrics.size(); ++i)
+        cloths_.push_back({i, {}});
+    for (const Object &object : scene.objects) {
+        const Surface &surface = scene.surfaces[object.surface.value];
+        const auto sides = [&](const auto &of) {
+            Cloth cloth{of.fabric.value, {}};
+            if (of.print)
+                cloth.print = of.print->value;
+            const std::uint32_t face = cloth_of(cloth);
+            return Sides{face, of.back ? of.back->value : face, !of.back && !surface.warp.empty()};
+        };
+        std::vector<Sides> of_panel(object.panels.empty() ? 1 : panel_count(surface),
+                                    sides(object));
+        for (const PanelFabric &panel : object.panels)
+            of_panel[panel.panel] = sides(panel);
+        sides_.push_back(std::move(of_panel));
+    }
 }
 
 void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis,
@@ -91,33 +132,60 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
     const std::vector<bool> used = fabrics_in_use(scene);
     KeptMaterials own;
     KeptMaterials &materials = kept ? *kept : own;
-    for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
+    for (const Cloth &cloth : cloths_) {
         if (progress.stopped())
             throw Interrupted("stopped while the fabrics were prepared");
-        const Fabric &fabric = scene.fabrics[i];
-        const Material material =
-            used[i] || keep_idle_parts
-                ? materials.resolve(fabric, "fabrics." + fabric.name, progress)
-                : Material{};
+        const Fabric &fabric = scene.fabrics[cloth.fabric];
+        const std::string where = "fabrics." + fabric.name;
+        const Material material = !used[cloth.fabric] && !keep_idle_parts ? Material{}
+                                  : cloth.print
+                                      ? materials.resolve(as_printed(cloth, basis), where, progress)
+                                      : materials.resolve(fabric, where, progress);
         colours.push_back(colours_of(material, basis));
         shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
+        of_dye_.push_back(material.of_dye);
     }
-    for (std::size_t i = 0; i < scene.fabrics.size(); ++i)
+    for (std::size_t i = 0; i < cloths_.size(); ++i)
         colours.push_back(exchanged(colours[i]));
 }
 
-void PreparedScene::prepare_sides() {
-    for (const Object &object : scene.objects) {
-        const Surface &surface = scene.surfaces[object.surface.value];
-        const auto sides = [&](FabricIndex face, const std::optional<FabricIndex> &back) {
-            return Sides{face.value, back.value_or(face).value, !back && !surface.warp.empty()};
-        };
-        std::vector<Sides> of_panel(object.panels.empty() ? 1 : panel_count(surface),
-                                    sides(object.fabric, object.back));
-        for (const PanelFabric &panel : object.panels)
-            of_panel[panel.panel] = sides(panel.fabric, panel.back);
-        sides_.push_back(std::move(of_panel));
+// With the mean of the print as its dye: so it has the parts that the print needs, and samples them
+// in due proportion.
+Fabric PreparedScene::as_printed(const Cloth &cloth, const SpectralBasis &basis) const {
+    Fabric fabric = scene.fabrics[cloth.fabric];
+    ChannelValues dye = values_of(fabric.colours.dye, basis);
+    prints_[*cloth.print].mean_dye(dye);
+    Spectrum mean{{}, {}};
+    for (int k = 0; k < basis.count; ++k) {
+        mean.wavelength_nm.push_back(basis.centre_nm(k));
+        mean.value.push_back(
+            static_cast<double>(std::clamp(dye[static_cast<std::size_t>(k)], 0.0f, 1.0f)));
     }
+    fabric.colours.dye_all(mean);
+    return fabric;
+}
+
+Colours PreparedScene::printed(const SurfacePoint &point, float distance,
+                               bool seen_by_camera) const {
+    // What a bounce sees is blurred: an angle of some degrees is fine enough
+    constexpr float kBounceAngle = 0.05f;
+    const Cloth &cloth = cloths_[point.cloth];
+    Colours c = colours[point.colours];
+    ChannelValues dye = dyes_[cloth.fabric];
+    prints_[*cloth.print].dye(point.uv, distance * (seen_by_camera ? pixel_angle_ : kBounceAngle),
+                              dye);
+    const std::vector<glm::vec2> &of_dye = of_dye_[point.cloth];
+    const float steps = static_cast<float>(of_dye.size() - 1);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(channels_); ++k) {
+        const float at = std::clamp(dye[k], 0.0f, 1.0f) * steps;
+        const auto below = std::min(static_cast<std::size_t>(at), of_dye.size() - 2);
+        const glm::vec2 albedos =
+            glm::mix(of_dye[below], of_dye[below + 1], at - static_cast<float>(below));
+        c.dye[k] = std::min(albedos.x, 1.0f);
+        c.weft_body[k] = c.warp_body[k] = std::min(albedos.y, 1 - c.dye[k]);
+        c.transmittance[k] = std::min(c.transmittance[k], 1 - c.dye[k] - c.warp_body[k]);
+    }
+    return c;
 }
 
 PreparedScene::Sides PreparedScene::sides_at(std::uint32_t object, const Surface &surface,
@@ -136,6 +204,7 @@ void PreparedScene::prepare_camera() {
     forward = ahead;
     right = aside * (half_height * camera.width / camera.height);
     up = glm::cross(aside, ahead) * half_height;
+    pixel_angle_ = static_cast<float>(2 * half_height / camera.height);
 }
 
 glm::vec3 PreparedScene::camera_direction(float x, float y) const {
@@ -161,9 +230,11 @@ SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) co
     if (behind)
         geometric = -geometric;
     const bool exchanged = behind && sides.own_back;
-    point.fabric = behind ? sides.back : sides.face;
-    point.colours =
-        point.fabric + (exchanged ? static_cast<std::uint32_t>(scene.fabrics.size()) : 0);
+    point.cloth = behind ? sides.back : sides.face;
+    point.colours = point.cloth + (exchanged ? static_cast<std::uint32_t>(cloths_.size()) : 0);
+    if (is_printed(point))
+        point.uv = hit.barycentric.x * surface.uv[t.x] + hit.barycentric.y * surface.uv[t.y] +
+                   hit.barycentric.z * surface.uv[t.z];
     glm::vec3 normal = interpolate(surface.normal);
     const float length = glm::length(normal);
     normal = length > 0 ? normal / length : geometric;

@@ -2,6 +2,7 @@
 // A scene made ready for tracing: BVH, lights, materials, camera.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -9,6 +10,7 @@
 #include "accelerator.h"
 #include "channels.h"
 #include "lights.h"
+#include "prepared_print.h"
 #include "shading.h"
 #include "tsuya/sdk/frame.h"
 #include "tsuya/sdk/kept_materials.h"
@@ -25,8 +27,9 @@ struct SurfacePoint {
     glm::vec3 geometric_normal; // of the triangle
     Frame frame;                // its normal is the shading normal
     glm::vec3 warp;             // of the cloth: also where the frame has the weft in its place
-    std::uint32_t fabric;
+    std::uint32_t cloth;
     std::uint32_t colours; // into PreparedScene::colours
+    glm::vec2 uv;          // of printed cloth, metres
 
     // False where the triangle is too small for float numbers to have its normal.
     bool is_finite() const { return glm::dot(geometric_normal, geometric_normal) > 0.5f; }
@@ -48,17 +51,28 @@ struct PreparedScene {
     glm::dvec3 centre; // of the scene; the origin of all that is traced
     Accelerator accelerator;
     Lights lights;
-    std::vector<Shading> shading{};    // per fabric
-    std::vector<Colours> colours{};    // per fabric, then of its own back
+    std::vector<Shading> shading{};    // per cloth
+    std::vector<Colours> colours{};    // per cloth, then of its own back
     glm::vec3 eye, forward, right, up; // camera, scaled to the image plane at distance 1
 
     // The direction of the camera ray through a place of the picture, in pixels.
     glm::vec3 camera_direction(float x, float y) const;
     // The point that a ray of this direction hit.
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
+    bool is_printed(const SurfacePoint &point) const {
+        return cloths_[point.cloth].print.has_value();
+    }
+    // The colours of a printed point. \param distance to the path's vertex before
+    Colours printed(const SurfacePoint &point, float distance, bool seen_by_camera) const;
 
   private:
-    // The fabrics of the two sides of a panel.
+    // A fabric, and what is printed on it. The first are the fabrics of the scene, in their order.
+    struct Cloth {
+        std::uint32_t fabric;
+        std::optional<std::uint32_t> print;
+        bool operator==(const Cloth &) const = default;
+    };
+    // The cloths of the two sides of a panel.
     struct Sides {
         std::uint32_t face, back;
         bool own_back; // the face's, with the yarn systems exchanged
@@ -68,8 +82,18 @@ struct PreparedScene {
     void prepare_camera();
     void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials *kept,
                          const Progress &progress);
+    void prepare_prints(const SpectralBasis &basis);
+    std::uint32_t cloth_of(const Cloth &cloth);
+    Fabric as_printed(const Cloth &cloth, const SpectralBasis &basis) const;
 
-    std::vector<std::vector<Sides>> sides_{}; // per object, per panel; one where all are alike
+    std::vector<Cloth> cloths_{};
+    std::vector<std::vector<Sides>> sides_{};      // per object, per panel; one where all are alike
+    std::vector<MipTexture> textures_{};           // of the scene, where there are prints
+    std::vector<PreparedPrint> prints_{};          // of the scene
+    std::vector<ChannelValues> dyes_{};            // of the fabrics, below prints
+    std::vector<std::vector<glm::vec2>> of_dye_{}; // per cloth, see Material
+    int channels_ = 0;
+    float pixel_angle_ = 0;
 };
 
 } // namespace tsuya

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/light_group.h"
 
@@ -54,7 +55,7 @@ struct SceneCheck {
                  "no surface " + std::to_string(object.surface.value), where + ".surface",
                  "expected an index below " + std::to_string(scene.surfaces.size()));
         const Surface *const surface = dresses ? &scene.surfaces[object.surface.value] : nullptr;
-        check_sides(object.fabric, object.back, surface, where);
+        check_cloth(object, surface, where);
         if (!surface || object.panels.empty())
             return;
         const std::size_t panels = panel_count(*surface);
@@ -62,7 +63,7 @@ struct SceneCheck {
         for (std::size_t p = 0; p < object.panels.size(); ++p) {
             const PanelFabric &panel = object.panels[p];
             const std::string place = where + ".panels[" + std::to_string(p) + "]";
-            check_sides(panel.fabric, panel.back, surface, place);
+            check_cloth(panel, surface, place);
             if (need(panel.panel < panels, "no panel " + std::to_string(panel.panel), place,
                      "expected an index below " + std::to_string(panels)))
                 need(seen.insert(panel.panel).second,
@@ -71,15 +72,23 @@ struct SceneCheck {
         }
     }
 
-    void check_sides(FabricIndex face, const std::optional<FabricIndex> &back,
-                     const Surface *surface, const std::string &where) {
-        check_cloth(face, surface, where, ".fabric");
-        if (back)
-            check_cloth(*back, surface, where, ".back");
+    // Of an object or a panel.
+    template <class Dressed>
+    void check_cloth(const Dressed &dressed, const Surface *surface, const std::string &where) {
+        check_fabric_of(dressed.fabric, surface, where, ".fabric");
+        if (dressed.back)
+            check_fabric_of(*dressed.back, surface, where, ".back");
+        if (!dressed.print)
+            return;
+        need(dressed.print->value < scene.prints.size(),
+             "no print " + std::to_string(dressed.print->value), where + ".print",
+             "expected an index below " + std::to_string(scene.prints.size()));
+        need(!surface || !surface->uv.empty(), "the surface has no UV for a print", where,
+             "expected the UVs of the panels");
     }
 
-    void check_cloth(FabricIndex fabric, const Surface *surface, const std::string &where,
-                     const char *key) {
+    void check_fabric_of(FabricIndex fabric, const Surface *surface, const std::string &where,
+                         const char *key) {
         if (!need(fabric.value < scene.fabrics.size(), "no fabric " + std::to_string(fabric.value),
                   where + key, "expected an index below " + std::to_string(scene.fabrics.size())) ||
             !surface)
@@ -88,6 +97,44 @@ struct SceneCheck {
         need(!needs_frames(cloth) || !surface->warp.empty(),
              "fabric '" + cloth.name + "' needs yarn directions and the surface has none", where,
              "expected a surface with UV, or a grain direction to invent one");
+    }
+
+    void prints() {
+        for (std::size_t i = 0; i < scene.textures.size(); ++i)
+            try {
+                check_texture(scene.textures[i], "textures[" + std::to_string(i) + "]");
+            } catch (const Error &error) {
+                problems.add(error);
+            }
+        for (std::size_t i = 0; i < scene.prints.size(); ++i)
+            check_print(scene.prints[i], "prints[" + std::to_string(i) + "]");
+    }
+
+    void check_print(const Print &print, const std::string &where) {
+        const auto &[width, origin, turn, repeat] = print.placement;
+        need(width > 0 && width <= kLargestLength, "the print is " + number_text(width) + " m wide",
+             where + ".width", "expected a width above 0");
+        need(is_length({origin, 0}) && std::isfinite(turn), "the place of the print is not finite",
+             where, "expected metres and radians");
+        need(!print.layers.empty(), "the print has no layer", where, "expected a picture");
+        for (std::size_t i = 0; i < print.layers.size(); ++i) {
+            const PrintLayer &layer = print.layers[i];
+            const std::string place = where + ".layers[" + std::to_string(i) + "]";
+            if (!need(layer.picture.value < scene.textures.size(),
+                      "no texture " + std::to_string(layer.picture.value), place,
+                      "expected an index below " + std::to_string(scene.textures.size())))
+                continue;
+            const std::size_t inks = scene.textures[layer.picture.value].channels == 1 ? 1 : 8;
+            need(layer.inks.size() == inks,
+                 "the layer has " + detail::counted(layer.inks.size(), "ink"), place,
+                 "expected " + std::to_string(inks) + " for this picture");
+            for (const Spectrum &ink : layer.inks)
+                try {
+                    check_spectrum(ink, 0, 1, place + ".inks");
+                } catch (const Error &error) {
+                    problems.add(error);
+                }
+        }
     }
 
     // Of what is rendered.
@@ -202,6 +249,7 @@ std::vector<bool> fabrics_in_use(const Scene &scene) {
 void check_scene(const Scene &scene) {
     SceneCheck check{scene};
     check.objects();
+    check.prints();
     check.fabrics();
     check.lights();
     check.camera();

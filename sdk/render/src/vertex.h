@@ -15,7 +15,7 @@ class Vertex {
   public:
     // \param direction of the ray that hit the point
     Vertex(const PreparedScene &scene, const SurfacePoint &point, const glm::vec3 &direction)
-        : point_(point), shading_(scene.shading[point.fabric]),
+        : point_(point), shading_(scene.shading[point.cloth]),
           to_viewer_(point.frame.to_local(-direction)), view_(shading_.view_terms(to_viewer_)) {}
 
     const glm::vec3 &position() const { return point_.position; }

@@ -98,6 +98,12 @@ void add_colours(const Fabric &fabric, Material &material, const Material *made,
         combined(colours.transmittance,
                  combined(weft, warp, [](double a, double b) { return std::max(a, b); }),
                  [&](double t, double dye) { return port.transmitted(t, dye); });
+    constexpr int kDyeSteps = 128;
+    for (int i = 0; i <= kDyeSteps; ++i) {
+        const double dye = static_cast<double>(i) / kDyeSteps;
+        material.of_dye.emplace_back(port.even_albedo(dye),
+                                     material.body ? port.body_albedo(dye) : 0.0);
+    }
     if (!material.body)
         return;
     material.weft_body = mapped(weft, [&](double r) { return port.body_albedo(r); });

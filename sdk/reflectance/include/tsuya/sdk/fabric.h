@@ -167,6 +167,9 @@ struct Material {
     /// The coloured part that follows the yarns, below the specular part; none: all is Lambertian
     std::optional<BodyBrdf> body{};
     Spectrum weft_body = Spectrum::constant(0), warp_body = Spectrum::constant(0); ///< its colours
+    /// Albedo of the Lambertian part (x) and colour of the body (y) of another dye on this cloth,
+    /// by its reflectance from 0 to 1 in equal steps, for prints
+    std::vector<glm::vec2> of_dye{};
 
     bool has_diffuse() const;  ///< Lambertian: dye or transmittance
     bool has_specular() const; ///< with a colour

@@ -13,21 +13,12 @@
 #include "tsuya/sdk/camera.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/image.h"
+#include "tsuya/sdk/print.h"
+#include "tsuya/sdk/scene_index.h"
 #include "tsuya/sdk/surface.h"
+#include "tsuya/sdk/texture.h"
 
 namespace tsuya {
-
-/// An index into the array of that kind in a Scene.
-template <class Tag> struct Index {
-    std::uint32_t value = 0;
-    bool operator==(const Index &) const = default;
-};
-/// Into Scene::surfaces.
-using SurfaceIndex = Index<struct SurfaceTag>;
-/// Into Scene::fabrics.
-using FabricIndex = Index<struct FabricTag>;
-/// Into Scene::light_groups.
-using LightGroupIndex = Index<struct LightGroupTag>;
 
 /// Bounds within which sums of float products stay finite: over 65536 samples, with responses of
 /// up to 10^4 /sr and the squares that errors are estimated from.
@@ -40,6 +31,7 @@ struct PanelFabric {
     std::uint32_t panel = 0; ///< of the surface's
     FabricIndex fabric{};
     std::optional<FabricIndex> back{}; ///< as Object::back
+    std::optional<PrintIndex> print{}; ///< as Object::print
 };
 
 /// A surface dressed in a fabric.
@@ -51,7 +43,10 @@ struct Object {
     /// back: where warp floats on the face, weft floats behind, so it is the face with the two yarn
     /// systems exchanged. Cloth without yarn directions has two equal sides.
     std::optional<FabricIndex> back{};
-    std::vector<PanelFabric> panels{}; ///< each panel once; those not here have `fabric` and `back`
+    /// What is printed on the fabric, in place of its dye; it shows on the fabric's own back as
+    /// well. For surfaces with UVs.
+    std::optional<PrintIndex> print{};
+    std::vector<PanelFabric> panels{}; ///< each panel once; those not here are as the object
 };
 
 /// A rectangle that shines to the side of cross(edge_u, edge_v). Radiance is relative to the
@@ -77,6 +72,8 @@ struct Environment {
 struct Scene {
     std::vector<Surface> surfaces{};
     std::vector<Fabric> fabrics{};
+    std::vector<Texture> textures{};
+    std::vector<Print> prints{};
     std::vector<Object> objects{};
     std::vector<std::string> light_groups{
         "key"}; ///< each gets its own transport, and so its own lamp

@@ -28,19 +28,50 @@ template <class F, detail::MaybeConst<Surface> T> void each_field(F &&f, T &surf
     f(detail::Field{.key = "panel_name", .in_picture = false}, panel_name);
 }
 
+template <class F, detail::MaybeConst<Texture> T> void each_field(F &&f, T &texture) {
+    auto &[width, height, channels, data] = texture;
+    f(detail::Field{"width"}, width);
+    f(detail::Field{"height"}, height);
+    f(detail::Field{"channels"}, channels);
+    f(detail::Field{"data"}, data);
+}
+
+template <class F, detail::MaybeConst<Placement> T> void each_field(F &&f, T &placement) {
+    auto &[width, origin, turn, repeat] = placement;
+    f(detail::Field{"width"}, width);
+    f(detail::Field{"origin"}, origin);
+    f(detail::Field{"turn"}, turn);
+    f(detail::Field{"repeat"}, repeat);
+}
+
+template <class F, detail::MaybeConst<PrintLayer> T> void each_field(F &&f, T &layer) {
+    auto &[picture, inks] = layer;
+    f(detail::Field{"picture"}, picture);
+    f(detail::Field{"inks"}, inks);
+}
+
+template <class F, detail::MaybeConst<Print> T> void each_field(F &&f, T &print) {
+    auto &[name, layers, placement] = print;
+    f(detail::Field{.key = "name", .in_picture = false}, name);
+    f(detail::Field{"layers"}, layers);
+    f(detail::Field{"placement"}, placement);
+}
+
 template <class F, detail::MaybeConst<PanelFabric> T> void each_field(F &&f, T &panel_fabric) {
-    auto &[panel, fabric, back] = panel_fabric;
+    auto &[panel, fabric, back, print] = panel_fabric;
     f(detail::Field{"panel"}, panel);
     f(detail::Field{"fabric"}, fabric);
     f(detail::Field{"back"}, back);
+    f(detail::Field{"print"}, print);
 }
 
 template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &object) {
-    auto &[name, surface, fabric, back, panels] = object;
+    auto &[name, surface, fabric, back, print, panels] = object;
     f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"surface"}, surface);
     f(detail::Field{"fabric"}, fabric);
     f(detail::Field{"back"}, back);
+    f(detail::Field{"print"}, print);
     f(detail::Field{"panels"}, panels);
 }
 
@@ -81,9 +112,12 @@ template <class F, detail::MaybeConst<Camera> T> void each_field(F &&f, T &camer
 }
 
 template <class F, detail::MaybeConst<Scene> T> void each_field(F &&f, T &scene) {
-    auto &[surfaces, fabrics, objects, light_groups, rectangles, environment, camera] = scene;
+    auto &[surfaces, fabrics, textures, prints, objects, light_groups, rectangles, environment,
+           camera] = scene;
     f(detail::Field{"surfaces"}, surfaces);
     f(detail::Field{"fabrics"}, fabrics);
+    f(detail::Field{"textures"}, textures);
+    f(detail::Field{"prints"}, prints);
     f(detail::Field{"objects"}, objects);
     f(detail::Field{"light_groups"}, light_groups);
     f(detail::Field{"rectangles"}, rectangles);

@@ -1,0 +1,76 @@
+#include "prepared_print.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tsuya {
+namespace {
+
+// Shares of the eight corners of the cube of colours, trilinear.
+std::array<float, 8> corner_shares(const glm::vec3 &colour) {
+    std::array<float, 8> shares{};
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        shares[corner] = 1;
+        for (int c = 0; c < 3; ++c)
+            shares[corner] *= (corner >> c) & 1u ? colour[c] : 1 - colour[c];
+    }
+    return shares;
+}
+
+} // namespace
+
+PreparedPrint::PreparedPrint(const Print &print, const std::vector<MipTexture> &textures,
+                             const SpectralBasis &basis)
+    : origin_(print.placement.origin),
+      widths_per_metre_(static_cast<float>(1 / print.placement.width)),
+      repeat_(print.placement.repeat), channels_(basis.count) {
+    for (const PrintLayer &layer : print.layers) {
+        PreparedLayer &made =
+            layers_.emplace_back(PreparedLayer{&textures[layer.picture.value], {}});
+        for (const Spectrum &ink : layer.inks) {
+            const std::vector<float> projected = project(ink, basis);
+            ChannelValues &values = made.inks.emplace_back();
+            // Least squares may leave the range where a spectrum has a steep edge
+            std::transform(projected.begin(), projected.end(), values.begin(),
+                           [](float v) { return std::min(v, 1.0f); });
+        }
+    }
+    const float turn = static_cast<float>(print.placement.turn);
+    const float aspect = layers_.front().picture->width_over_height();
+    right_ = widths_per_metre_ * glm::vec2(std::cos(turn), std::sin(turn));
+    up_ = widths_per_metre_ * aspect * glm::vec2(-std::sin(turn), std::cos(turn));
+}
+
+void PreparedPrint::dye(glm::vec2 uv, float footprint, ChannelValues &dye) const {
+    const glm::vec2 from = uv - origin_;
+    const glm::vec2 place(glm::dot(from, right_), glm::dot(from, up_));
+    for (const PreparedLayer &layer : layers_)
+        add(layer, layer.picture->at(place, footprint * widths_per_metre_, repeat_), dye);
+}
+
+void PreparedPrint::mean_dye(ChannelValues &dye) const {
+    for (const PreparedLayer &layer : layers_)
+        add(layer, layer.picture->mean(), dye);
+}
+
+void PreparedPrint::add(const PreparedLayer &layer, const glm::vec4 &pixel,
+                        ChannelValues &dye) const {
+    const float covered = pixel.w;
+    if (!(covered > 0))
+        return;
+    const auto count = static_cast<std::size_t>(channels_);
+    ChannelValues of_layer{};
+    if (layer.inks.size() == 1) {
+        of_layer = layer.inks.front();
+    } else {
+        const std::array<float, 8> shares = corner_shares(glm::vec3(pixel));
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            for (std::size_t k = 0; k < count; ++k)
+                of_layer[k] += shares[corner] * layer.inks[corner][k];
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        dye[k] += covered * (of_layer[k] - dye[k]);
+}
+
+} // namespace tsuya

@@ -1,0 +1,45 @@
+#pragma once
+// A print made ready for tracing.
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "channels.h"
+#include "mip_texture.h"
+#include "tsuya/sdk/print.h"
+#include "tsuya/sdk/spectrum.h"
+
+namespace tsuya {
+
+// The reflectances of inks in the channels of a render.
+struct PreparedLayer {
+    const MipTexture *picture;
+    std::vector<ChannelValues> inks; // one or eight
+};
+
+class PreparedPrint {
+  public:
+    // \param textures those of the scene, which must outlive this
+    PreparedPrint(const Print &print, const std::vector<MipTexture> &textures,
+                  const SpectralBasis &basis);
+
+    // Replaces the dye of the cloth by that of the print where it covers it.
+    // \param uv metres of cloth
+    // \param footprint what one sample stands for, metres
+    void dye(glm::vec2 uv, float footprint, ChannelValues &dye) const;
+    // The same by the means of its pictures.
+    void mean_dye(ChannelValues &dye) const;
+
+  private:
+    void add(const PreparedLayer &layer, const glm::vec4 &pixel, ChannelValues &dye) const;
+
+    std::vector<PreparedLayer> layers_{};
+    glm::vec2 right_{}, up_{}; // what a metre along the picture's axes is, in widths and heights
+    glm::vec2 origin_;
+    float widths_per_metre_;
+    Repeat repeat_;
+    int channels_;
+};
+
+} // namespace tsuya
