@@ -88,6 +88,12 @@ struct TryOn final : Command {
         o.option("--back", &backs, "[PANELS=]FABRIC",
                  "what is seen from behind, such as a lining; may be given again")
             .check([this] { check_fabrics(backs); });
+        const Option &pattern = o.option("--pattern", &job.pattern, "IMAGE",
+                                         "picture printed on the garment's fabric, over its dye");
+        o.option("--pattern-width", &job.pattern_width, "METRES",
+                 "width of that picture on the cloth; it is repeated")
+            .positive()
+            .needs(pattern);
         o.option("--dye", &job.dyes, "A,B,...",
                  "dyes, one render each: names of `tsuya list dyes`, #rrggbb, F.csv")
             .with_commas()
@@ -177,7 +183,7 @@ struct TryOn final : Command {
             if (cloth.panels.empty())
                 job.fabric = find(cloth.fabric);
             else
-                job.panels.push_back({.pattern = cloth.panels, .fabric = find(cloth.fabric)});
+                job.panels.push_back({.panels = cloth.panels, .fabric = find(cloth.fabric)});
         }
         if (job.fabric.empty())
             job.fabric = find(kDefaultFabric);
@@ -186,7 +192,7 @@ struct TryOn final : Command {
             if (cloth.panels.empty())
                 job.back = find(cloth.fabric);
             else
-                job.panels.push_back({.pattern = cloth.panels, .back = find(cloth.fabric)});
+                job.panels.push_back({.panels = cloth.panels, .back = find(cloth.fabric)});
         }
     }
 

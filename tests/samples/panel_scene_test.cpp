@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "samples/scratch.h"
+#include "tsuya/color/image_file.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/scene_file.h"
 #include "tsuya/scene/tryon.h"
@@ -115,14 +116,51 @@ TEST_F(PanelScene, WhatNamesNothingIsRefusedWithTheNearest) {
     EXPECT_NE(problem("").find("no usable UV"), std::string::npos);
 }
 
+TEST_F(PanelScene, PatternsAreOfPanelsGarmentsAndFabrics) {
+    write_png(scratch / "a.png", Image::make(4, 2, {"R", "G", "B"}));
+    const std::string picture = "picture = \"a.png\"\n";
+    const std::string horn = "[garments.coat.panels.Button1]\nfabric = \"horn\"\n";
+    const Scene scene =
+        build_scene(read("[garments.coat.pattern]\nwidth_m = 0.64\norigin_m = [0.1, 0.2]\n"
+                         "turn_deg = 90\nrepeat = \"mirror\"\n" +
+                         picture + horn + "[garments.coat.panels.Front.pattern]\nwidth_m = 0.4\n" +
+                         "repeat = \"once\"\n[garments.coat.panels.Front.pattern.screens.a]\n" +
+                         picture + "dye = \"indigo\"\n"))
+            .scene;
+    ASSERT_EQ(scene.prints.size(), 2u);
+    const Object &coat = scene.objects[0];
+    ASSERT_TRUE(coat.print);
+    const Print &whole = scene.prints[coat.print->value];
+    EXPECT_EQ(whole.placement.width, 0.64);
+    EXPECT_EQ(whole.placement.origin, glm::dvec2(0.1, 0.2));
+    EXPECT_NEAR(whole.placement.turn, kPi / 2, 1e-12);
+    EXPECT_EQ(whole.placement.repeat, Repeat::mirror);
+    EXPECT_EQ(whole.layers[0].inks.size(), 8u);
+    ASSERT_EQ(coat.panels.size(), 2u);
+    EXPECT_EQ(scene.prints[coat.panels[0].print->value].layers[0].inks.size(), 1u);
+    EXPECT_EQ(scene.textures[1].channels, 1);
+    EXPECT_FALSE(coat.panels[1].print); // the button's fabric has none
+
+    const Object printed =
+        build_scene(read(horn + "[fabrics.silk.pattern]\nwidth_m = 1\n" + picture))
+            .scene.objects[0];
+    EXPECT_TRUE(printed.print);
+    EXPECT_NE(problem("[garments.coat.pattern]\n" + picture).find("width_m"), std::string::npos);
+    EXPECT_NE(problem("[garments.coat.pattern]\nwidth_m = 1\nrepeat = \"twice\"\n" + picture)
+                  .find("tile, mirror or once"),
+              std::string::npos);
+    EXPECT_NE(problem("[garments.coat.pattern]\nwidth_m = 1\npicture = \"b.png\"\n").find("b.png"),
+              std::string::npos);
+}
+
 TEST_F(PanelScene, TryOn) {
     scratch.write("coat.obj", coat_obj());
     const auto fabric = [](const char *name) { return find_fabric(name, data_folder()); };
     TryOn job{.garment = scratch / "coat.obj",
               .fabric = fabric("black_satin"),
               .back = fabric("black_lining"),
-              .panels = {{.pattern = "Button*", .fabric = fabric("plastic")},
-                         {.pattern = "Back", .back = fabric("black_taffeta")}},
+              .panels = {{.panels = "Button*", .fabric = fabric("plastic")},
+                         {.panels = "Back", .back = fabric("black_taffeta")}},
               .level = 0,
               .width = 16,
               .height = 20};
@@ -134,7 +172,7 @@ TEST_F(PanelScene, TryOn) {
     EXPECT_EQ(scene.fabrics[coat.panels[0].fabric.value].name, "black_satin");
     EXPECT_EQ(scene.fabrics[coat.panels[0].back->value].name, "black_taffeta");
     EXPECT_EQ(scene.fabrics[coat.panels[1].fabric.value].name, "plastic");
-    job.panels = {{.pattern = "Zip", .fabric = fabric("plastic")}};
+    job.panels = {{.panels = "Zip", .fabric = fabric("plastic")}};
     EXPECT_THROW(make_try_on_scene(job), Error);
 }
 

@@ -9,45 +9,55 @@ namespace tsuya::scene {
 namespace {
 
 bool names_islands(const PanelEntry &entry) {
-    return entry.pattern.find("island") != std::string::npos;
+    return entry.panels.find("island") != std::string::npos;
 }
 
-FabricIndex index_of(std::size_t fabric) { return {static_cast<std::uint32_t>(fabric)}; }
+template <class Tag = FabricTag> Index<Tag> index_of(std::size_t value) {
+    return {static_cast<std::uint32_t>(value)};
+}
 
-bool has_frames(const PanelFabric &panel, const std::vector<Fabric> &fabrics) {
-    return needs_frames(fabrics[panel.fabric.value]) ||
-           (panel.back && needs_frames(fabrics[panel.back->value]));
+// What an entry says of a panel.
+void apply(const PanelEntry &entry, const std::vector<DressingFabric> &fabrics,
+           PanelFabric &panel) {
+    if (entry.fabric) { // back and print were those of the garment's fabric
+        panel.fabric = index_of(*entry.fabric);
+        panel.back.reset();
+        panel.print = fabrics[*entry.fabric].print;
+    }
+    if (entry.back)
+        panel.back = index_of(*entry.back);
+    if (entry.pattern)
+        panel.print = index_of<PrintTag>(*entry.pattern);
 }
 
 } // namespace
 
-Dressing dress(FabricIndex fabric, std::optional<FabricIndex> back,
-               const std::vector<PanelEntry> &entries, const std::vector<Fabric> &fabrics,
-               garment::MeshFile &mesh, garment::Options &options) {
-    Dressing dressing{.fabric = fabric, .back = back};
+Object Dressing::object(std::string name, SurfaceIndex surface) && {
+    return {std::move(name), surface, fabric, back, print, std::move(panels)};
+}
+
+Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
+               const std::vector<DressingFabric> &fabrics, garment::MeshFile &mesh,
+               garment::Options &options) {
     if (entries.empty())
-        return dressing;
+        return whole;
     if (mesh.mesh.panel_name.empty() || std::ranges::any_of(entries, names_islands))
         garment::split_panels_by_island(mesh);
     std::map<std::uint32_t, PanelFabric> panels;
     for (const PanelEntry &entry : entries)
-        for (const std::uint32_t p : garment::panels_named(mesh.mesh, entry.pattern, entry.where)) {
-            PanelFabric &panel = panels.try_emplace(p, PanelFabric{p, fabric, back}).first->second;
-            if (entry.fabric) {
-                panel.fabric = index_of(*entry.fabric);
-                panel.back.reset(); // of the garment's fabric, not of this one
-            }
-            if (entry.back)
-                panel.back = index_of(*entry.back);
+        for (const std::uint32_t p : garment::panels_named(mesh.mesh, entry.panels, entry.where)) {
+            const PanelFabric as_whole{p, whole.fabric, whole.back, whole.print};
+            apply(entry, fabrics, panels.try_emplace(p, as_whole).first->second);
             if (entry.grain)
                 options.frames.grain[mesh.mesh.panel_name[p]] = *entry.grain;
         }
     for (const auto &[p, panel] : panels) {
-        dressing.panels.push_back(panel);
-        if (!has_frames(panel, fabrics))
+        whole.panels.push_back(panel);
+        if (!fabrics[panel.fabric.value].needs_frames &&
+            !(panel.back && fabrics[panel.back->value].needs_frames) && !panel.print)
             options.frames.plain.insert(mesh.mesh.panel_name[p]);
     }
-    return dressing;
+    return whole;
 }
 
 } // namespace tsuya::scene

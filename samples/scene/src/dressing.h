@@ -10,18 +10,28 @@
 
 namespace tsuya::scene {
 
-// The fabrics of an object.
+// What an object is of.
 struct Dressing {
     FabricIndex fabric{};
     std::optional<FabricIndex> back{};
+    std::optional<PrintIndex> print{};
     std::vector<PanelFabric> panels{};
+
+    Object object(std::string name, SurfaceIndex surface) &&;
+};
+
+// A fabric that panels can have.
+struct DressingFabric {
+    bool needs_frames = false;
+    std::optional<PrintIndex> print{}; // where the panel has no other
 };
 
 // Finds the panels that the entries name, later ones before earlier ones, and sets their grain in
 // `options`, and which of them have no yarn directions. Panels become UV islands where the mesh
 // names none or an entry names islands. Throws Error at an entry that names no panel.
-Dressing dress(FabricIndex fabric, std::optional<FabricIndex> back,
-               const std::vector<PanelEntry> &entries, const std::vector<Fabric> &fabrics,
-               garment::MeshFile &mesh, garment::Options &options);
+// \param whole what panels have that no entry names
+Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
+               const std::vector<DressingFabric> &fabrics, garment::MeshFile &mesh,
+               garment::Options &options);
 
 } // namespace tsuya::scene

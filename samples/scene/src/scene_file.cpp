@@ -3,6 +3,7 @@
 #include <map>
 
 #include "dressing.h"
+#include "patterns.h"
 #include "scene_meshes.h"
 #include "scene_reader.h"
 #include "tsuya/sdk/error.h"
@@ -13,11 +14,16 @@ namespace {
 void add_object(Scene &scene, const std::string &name, Surface surface, Dressing dressing) {
     const auto index = static_cast<std::uint32_t>(scene.surfaces.size());
     scene.surfaces.push_back(std::move(surface));
-    scene.objects.push_back(
-        {name, {index}, dressing.fabric, dressing.back, std::move(dressing.panels)});
+    scene.objects.push_back(std::move(dressing).object(name, {index}));
 }
 
-FabricIndex index_of(std::size_t fabric) { return {static_cast<std::uint32_t>(fabric)}; }
+template <class Tag> Index<Tag> index_of(std::size_t value) {
+    return {static_cast<std::uint32_t>(value)};
+}
+
+template <class Tag> std::optional<Index<Tag>> index_of(const std::optional<std::size_t> &value) {
+    return value ? std::optional(index_of<Tag>(*value)) : std::nullopt;
+}
 
 /// Where the file has the parts of its scene: `a.scene.toml:9:1: lights.key` for `rectangles[0]`.
 std::map<std::string, std::string> places_of(const SceneFile &file) {
@@ -113,6 +119,11 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
     Scene &scene = built.scene;
     for (const FabricEntry &entry : file.fabrics)
         scene.fabrics.push_back(load_fabric(entry, file.path.string()));
+    add_prints(file.patterns, scene);
+    std::vector<DressingFabric> fabrics;
+    for (std::size_t i = 0; i < file.fabrics.size(); ++i)
+        fabrics.push_back({.needs_frames = needs_frames(scene.fabrics[i]),
+                           .print = index_of<PrintTag>(file.fabrics[i].pattern)});
     SceneMeshes meshes(progress);
     for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
         for (const MeshEntry &entry : *entries) {
@@ -124,15 +135,16 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
                            .options = entry.options,
                            .tolerance_px = entry.tolerance_px,
                            .translate = entry.translate};
-            Dressing dressing =
-                dress(index_of(entry.fabric),
-                      entry.back ? std::optional(index_of(*entry.back)) : std::nullopt,
-                      entry.panels, scene.fabrics, mesh.file, mesh.options);
+            const auto pattern = entry.pattern ? entry.pattern : file.fabrics[entry.fabric].pattern;
+            Dressing dressing = dress({.fabric = index_of<FabricTag>(entry.fabric),
+                                       .back = index_of<FabricTag>(entry.back),
+                                       .print = index_of<PrintTag>(pattern)},
+                                      entry.panels, fabrics, mesh.file, mesh.options);
             add_object(scene, entry.name, meshes.add(std::move(mesh)), std::move(dressing));
         }
     if (file.backdrop) {
         add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape),
-                   {.fabric = index_of(scene.fabrics.size())});
+                   {.fabric = index_of<FabricTag>(scene.fabrics.size())});
         scene.fabrics.push_back(
             {.name = "backdrop", .colours = {.dye = file.backdrop->reflectance}});
     }

@@ -65,6 +65,49 @@ std::optional<Spectrum> SceneReader::colour(const Section &section, const char *
     return constant ? std::optional(Spectrum::constant(*constant)) : std::nullopt;
 }
 
+std::optional<std::size_t> SceneReader::pattern(const Section &of, const std::string &owner) {
+    const auto section = of.section("pattern");
+    if (!section)
+        return {};
+    PatternEntry entry{.name = owner};
+    Placement &placement = entry.placement;
+    placement.width = section->required_number("width_m", kSmallest, kLargest);
+    if (const auto origin = section->numbers("origin_m")) {
+        if (origin->size() == 2)
+            placement.origin = {(*origin)[0], (*origin)[1]};
+        else
+            section->problem("origin_m",
+                             "'origin_m' has " + std::to_string(origin->size()) + " numbers",
+                             "expected two, such as [0.1, 0]");
+    }
+    placement.turn = section->number("turn_deg", -360, 360).value_or(0) * kDegree;
+    if (const auto repeat = section->text("repeat")) {
+        const auto found = std::ranges::find(kRepeatNames, *repeat);
+        placement.repeat = static_cast<Repeat>(found - kRepeatNames.begin());
+        if (found == kRepeatNames.end()) {
+            placement.repeat = Repeat::tile;
+            section->problem("repeat", "no repeat '" + *repeat + "'",
+                             "expected tile, mirror or once");
+        }
+    }
+    if (section->has("picture"))
+        entry.screens.push_back({existing_file(*section, "picture", true), {}});
+    if (const auto screens = section->section("screens"))
+        for (const auto &[name, screen] : screens->sections()) {
+            const auto dye = reflectance(screen);
+            if (!dye)
+                screen.problem("dye", "the screen '" + name + "' has no dye",
+                               "expected dye or reflectance");
+            entry.screens.push_back(
+                {existing_file(screen, "picture", true), dye.value_or(Spectrum::constant(0))});
+        }
+    if (entry.screens.empty())
+        section->problem("picture", "'picture' is missing",
+                         "expected a picture, or [...pattern.screens.NAME] with picture and dye");
+    file_.patterns.push_back(std::move(entry));
+    return file_.patterns.size() - 1;
+}
+
 LightGroupIndex SceneReader::group(const Section &section, const std::string &otherwise) {
     const std::string name = section.text("group").value_or(otherwise);
     auto &groups = file_.light_groups;
@@ -153,6 +196,7 @@ void SceneReader::read_fabrics() {
         if (const auto lustre = section.text("lustre"))
             note(section, "lustre", [&] { entry.lustre = lustre_named(*lustre, ""); });
         entry.delustre = section.number("delustre", 0, 1);
+        entry.pattern = pattern(section, "fabrics." + name);
         file_.fabrics.push_back(std::move(entry));
     }
 }
@@ -167,6 +211,7 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         section.required_text("fabric");
         entry.fabric = fabric_named(section, "fabric").value_or(0);
         entry.back = fabric_named(section, "back");
+        entry.pattern = pattern(section, std::string(kind) + "." + name);
         if (const auto panels = section.section("panels"))
             read_panels(*panels, yarn, entry);
         if (const auto unit = section.text("unit"))
@@ -206,11 +251,12 @@ std::optional<std::size_t> SceneReader::fabric_named(const Section &section, con
 }
 
 void SceneReader::read_panels(const Section &panels, bool yarn, MeshEntry &entry) {
-    for (const auto &[pattern, section] : panels.sections()) {
-        PanelEntry panel{.pattern = pattern,
+    for (const auto &[name, section] : panels.sections()) {
+        PanelEntry panel{.panels = name,
                          .where = section.where(),
                          .fabric = fabric_named(section, "fabric"),
-                         .back = fabric_named(section, "back")};
+                         .back = fabric_named(section, "back"),
+                         .pattern = pattern(section, "panels." + name)};
         if (yarn)
             if (const auto grain = section.number("grain_deg", -360, 360))
                 panel.grain = *grain * kDegree;

@@ -44,6 +44,8 @@ class SceneReader {
     // `dye` or `reflectance`.
     std::optional<Spectrum> reflectance(const Section &section);
     std::optional<Spectrum> dyed(const Section &section, const char *key);
+    // Index of the pattern of a fabric, a garment or panels; empty where it has none.
+    std::optional<std::size_t> pattern(const Section &of, const std::string &owner);
     // A number from 0 to 1, or a text as `dye` has it.
     std::optional<Spectrum> colour(const Section &section, const char *key);
     std::filesystem::path existing_file(const Section &section, std::string_view key,

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "dressing.h"
+#include "patterns.h"
 #include "scene_meshes.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
@@ -90,12 +91,18 @@ struct Cloths {
         if (const auto behind = index(job.back))
             back = FabricIndex{static_cast<std::uint32_t>(*behind)};
         for (const PanelCloth &panel : job.panels)
-            entries.push_back({.pattern = panel.pattern,
-                               .where = "panel '" + panel.pattern + "'",
+            entries.push_back({.panels = panel.panels,
+                               .where = "panel '" + panel.panels + "'",
                                .fabric = index(panel.fabric),
                                .back = index(panel.back)});
     }
     bool need_frames() const { return std::any_of(fabrics.begin(), fabrics.end(), needs_frames); }
+    std::vector<DressingFabric> dressing() const {
+        std::vector<DressingFabric> all;
+        for (const Fabric &fabric : fabrics)
+            all.push_back({.needs_frames = needs_frames(fabric)});
+        return all;
+    }
 
   private:
     std::vector<fs::path> files_{};
@@ -207,7 +214,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     garment::Options body_options = options;
     body_options.want_frames = false;
     options.strict = job.strict;
-    options.want_frames = cloths.need_frames();
+    options.want_frames = cloths.need_frames() || !job.pattern.empty();
 
     garment::GarmentFrames frames =
         garment::read_frames(job.garment, job.frames, job.morph_targets, progress);
@@ -217,15 +224,22 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
             {"the mesh has no UV, and '" + cloths.fabrics.front().name + "' has a warp direction",
              job.garment.string(),
              "expected the UVs of the panels, or a stated direction of the warp (--grain)"});
-    Dressing dressing =
-        dress({0}, cloths.back, cloths.entries, cloths.fabrics, frames.first, options);
+    std::optional<PrintIndex> print;
+    if (!job.pattern.empty()) {
+        add_prints({{.name = "pattern",
+                     .screens = {{job.pattern, {}}},
+                     .placement = {.width = job.pattern_width}}},
+                   scene);
+        print = PrintIndex{0};
+    }
+    Dressing dressing = dress({.fabric = {0}, .back = cloths.back, .print = print}, cloths.entries,
+                              cloths.dressing(), frames.first, options);
     scene.fabrics = cloths.fabrics;
     scene.surfaces.push_back(stage.meshes.add({.file = std::move(frames.first),
                                                .where = job.garment.string(),
                                                .options = options,
                                                .tolerance_px = job.tolerance_px}));
-    scene.objects.push_back(
-        {"garment", {0}, dressing.fabric, dressing.back, std::move(dressing.panels)});
+    scene.objects.push_back(std::move(dressing).object("garment", {0}));
     stage.meshes.add_points(
         frame_points_of(stage.meshes.file(0).mesh, stage.further, options.metres_per_unit));
     if (!job.body.empty())

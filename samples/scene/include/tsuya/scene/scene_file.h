@@ -16,6 +16,7 @@
 #include "tsuya/color/config.h"
 #include "tsuya/garment/garment.h"
 #include "tsuya/scene/panel_entry.h"
+#include "tsuya/scene/pattern_entry.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/scene/studio.h"
 #include "tsuya/sdk/render.h"
@@ -34,6 +35,7 @@ struct FabricEntry {
     std::optional<Spectrum> weft_dye{}, warp_dye{};
     std::optional<Lustre> lustre{};
     std::optional<double> delustre{};
+    std::optional<std::size_t> pattern{}; ///< into SceneFile::patterns
 };
 
 /// `[garments.NAME]` or `[bodies.NAME]`. Bodies have no yarn directions.
@@ -41,9 +43,10 @@ struct MeshEntry {
     std::string name{};
     std::string where{}; ///< file:line:column
     std::filesystem::path mesh{};
-    std::size_t fabric = 0;            ///< into SceneFile::fabrics
-    std::optional<std::size_t> back{}; ///< the same; see Object::back
-    std::vector<PanelEntry> panels{};  ///< `[garments.NAME.panels."PATTERN"]`
+    std::size_t fabric = 0;               ///< into SceneFile::fabrics
+    std::optional<std::size_t> back{};    ///< the same; see Object::back
+    std::optional<std::size_t> pattern{}; ///< into SceneFile::patterns, in place of the fabric's
+    std::vector<PanelEntry> panels{};     ///< `[garments.NAME.panels."PATTERN"]`
     garment::Options options{};
     std::optional<double> tolerance_px{}; ///< of the scene's camera; in place of the level
     glm::dvec3 translate{0, 0, 0};        ///< metres
@@ -70,6 +73,7 @@ struct SceneFile {
     std::optional<Camera> camera{}; ///< empty: framed, see below
     Framing framing{};              ///< of all visible garments and bodies
     std::vector<FabricEntry> fabrics{};
+    std::vector<PatternEntry> patterns{};
     std::vector<MeshEntry> garments{};
     std::vector<MeshEntry> bodies{};
     std::optional<BackdropEntry> backdrop{};

@@ -32,7 +32,7 @@ void check_dyes(const std::vector<std::string> &specs);
 /// What some panels of a garment are of, in place of its fabric. The last that names a panel
 /// counts.
 struct PanelCloth {
-    std::string pattern{};          ///< see garment::panels_named
+    std::string panels{};           ///< see garment::panels_named
     std::filesystem::path fabric{}; ///< F.fabric.toml; empty: the garment's
     std::filesystem::path back{};   ///< F.fabric.toml; empty: the fabric's own back
 };
@@ -47,6 +47,8 @@ struct TryOn {
     std::filesystem::path body{};           ///< a mesh; empty: none
     std::filesystem::path fabric{};         ///< F.fabric.toml
     std::filesystem::path back{};           ///< F.fabric.toml seen from behind; empty: its own back
+    std::filesystem::path pattern{};        ///< a picture printed on the garment; empty: none
+    double pattern_width = 0.64;            ///< of the picture, metres of cloth
     std::vector<PanelCloth> panels{};       ///< of the garment; they keep their own dyes
     std::optional<double> tolerance{};      ///< metres; in place of `level`, see SubdivideOptions
     std::optional<double> tolerance_px{};   ///< pixels; in place of `level`, see ViewTolerance
