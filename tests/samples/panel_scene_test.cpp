@@ -145,6 +145,13 @@ TEST_F(PanelScene, PatternsAreOfPanelsGarmentsAndFabrics) {
         build_scene(read(horn + "[fabrics.silk.pattern]\nwidth_m = 1\n" + picture))
             .scene.objects[0];
     EXPECT_TRUE(printed.print);
+    const Scene lace =
+        build_scene(read(horn + "[garments.coat.panels.Front.opacity]\nwidth_m = 0.2\n" + picture))
+            .scene;
+    ASSERT_EQ(lace.objects[0].panels.size(), 2u);
+    EXPECT_TRUE(lace.objects[0].panels[0].opacity);
+    EXPECT_EQ(lace.textures[lace.opacities[0].picture.value].channels, 1);
+    EXPECT_EQ(lace.opacities[0].placement.width, 0.2);
     EXPECT_NE(problem("[garments.coat.pattern]\n" + picture).find("width_m"), std::string::npos);
     EXPECT_NE(problem("[garments.coat.pattern]\nwidth_m = 1\nrepeat = \"twice\"\n" + picture)
                   .find("tile, mirror or once"),

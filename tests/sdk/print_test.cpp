@@ -233,5 +233,97 @@ TEST(Print, ThatIsWrongIsRefused) {
     EXPECT_EQ(where(scene).substr(0, 24), "prints[0].layers[0].inks");
 }
 
+// A sheet with a picture of holes above a floor; the light is above both.
+Scene sheet_with_holes(Texture picture) {
+    Scene scene;
+    scene.surfaces = {floor_square(4), floor_square(20)};
+    scene.surfaces[0].uv = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+    for (glm::dvec3 &p : scene.surfaces[0].position)
+        p.y = 1;
+    scene.fabrics = {lambert(0.8), lambert(0.4)};
+    scene.textures = {std::move(picture)};
+    scene.opacities = {{.picture = {0}}};
+    scene.objects = {{"sheet", {0}, {0}}, {"floor", {1}, {1}}};
+    scene.objects[0].opacity = OpacityIndex{0};
+    scene.rectangles = {
+        {.corner = {-0.5, 2, -0.5}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = 5}};
+    scene.camera = {
+        .eye = {0, 0.5, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .width = 8, .height = 8};
+    return scene;
+}
+
+RenderSettings direct(int samples) {
+    RenderSettings settings = quick(samples);
+    settings.max_bounces = 0;
+    return settings;
+}
+
+double mean_of(const Scene &scene, const RenderSettings &settings) {
+    const std::vector<float> values = render(scene, settings).image.transport;
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+TEST(Opacity, LightIsWeakenedByWhatLiesOnItsWay) {
+    const Scene half = sheet_with_holes(plain({64, 0, 0, 0}, 1));
+    Scene open = half;
+    open.objects.erase(open.objects.begin());
+    const double whole = mean_of(open, direct(16));
+    EXPECT_GT(whole, 0.1);
+    EXPECT_NEAR(mean_of(half, direct(16)), whole * (1 - 64.0 / 255), 0.01 * whole);
+    EXPECT_EQ(mean_of(sheet_with_holes(plain({255, 0, 0, 0}, 1)), direct(16)), 0);
+    EXPECT_NEAR(mean_of(sheet_with_holes(plain({0, 0, 0, 0}, 1)), direct(16)), whole, 1e-5 * whole);
+}
+
+TEST(Opacity, TheCameraSeesThroughHoles) {
+    const auto seen = [](std::uint8_t cover) {
+        Scene scene = sheet_with_holes(plain({cover, 0, 0, 0}, 1));
+        scene.rectangles.clear();
+        scene.environment = Environment{.radiance = 1, .visible = true};
+        scene.surfaces.pop_back(); // no floor: black cloth before a bright sky
+        scene.objects.pop_back();
+        scene.fabrics[0] = lambert(0);
+        scene.camera.target = {0, 1, 0};
+        return mean_of(scene, quick(256));
+    };
+    EXPECT_NEAR(seen(102), 0.6, 0.01);
+    EXPECT_EQ(seen(255), 0);
+    EXPECT_EQ(seen(0), 1);
+}
+
+TEST(Opacity, OfAllIsNoOpacity) {
+    const Scene whole = sheet_with_holes(plain({255, 0, 0, 0}, 1));
+    Scene without = whole;
+    without.objects[0].opacity.reset();
+    Scene seen = whole, seen_without = without;
+    for (Scene *const scene : {&seen, &seen_without})
+        scene->camera.eye = {0, 4, 0};
+    EXPECT_EQ(render(seen, quick(8)).image.transport,
+              render(seen_without, quick(8)).image.transport);
+}
+
+// White lace among light from all sides.
+TEST(Opacity, WhiteLaceIsNotSeenInAFurnace) {
+    Scene scene = sheet_with_holes(chequers(8, 8));
+    scene.textures[0].channels = 1;
+    scene.textures[0].data.resize(64);
+    scene.rectangles.clear();
+    scene.environment = Environment{.radiance = 1};
+    scene.fabrics = {lambert(1), lambert(1)};
+    scene.camera.eye = {0.3, 4, 0.2};
+    RenderSettings settings = quick(64);
+    settings.max_bounces = 256;
+    EXPECT_NEAR(mean_of(scene, settings), 1, 2e-3);
+    scene.fabrics[0] = lambert(0.9); // negative control
+    EXPECT_LT(mean_of(scene, settings), 0.99);
+}
+
+TEST(Opacity, NeedsAPictureOfCoverage) {
+    Scene scene = sheet_with_holes(plain({1, 2, 3, 4}));
+    EXPECT_THROW(check_scene(scene), Error);
+    scene = sheet_with_holes(plain({1, 0, 0, 0}, 1));
+    scene.surfaces[0].uv.clear();
+    EXPECT_THROW(check_scene(scene), Error);
+}
+
 } // namespace
 } // namespace tsuya::test

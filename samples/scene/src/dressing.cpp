@@ -19,21 +19,24 @@ template <class Tag = FabricTag> Index<Tag> index_of(std::size_t value) {
 // What an entry says of a panel.
 void apply(const PanelEntry &entry, const std::vector<DressingFabric> &fabrics,
            PanelFabric &panel) {
-    if (entry.fabric) { // back and print were those of the garment's fabric
+    if (entry.fabric) { // what is here was of the garment's fabric
         panel.fabric = index_of(*entry.fabric);
         panel.back.reset();
         panel.print = fabrics[*entry.fabric].print;
+        panel.opacity = fabrics[*entry.fabric].opacity;
     }
     if (entry.back)
         panel.back = index_of(*entry.back);
     if (entry.pattern)
         panel.print = index_of<PrintTag>(*entry.pattern);
+    if (entry.opacity)
+        panel.opacity = index_of<OpacityTag>(*entry.opacity);
 }
 
 } // namespace
 
 Object Dressing::object(std::string name, SurfaceIndex surface) && {
-    return {std::move(name), surface, fabric, back, print, std::move(panels)};
+    return {std::move(name), surface, fabric, back, print, opacity, std::move(panels)};
 }
 
 Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
@@ -46,7 +49,7 @@ Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
     std::map<std::uint32_t, PanelFabric> panels;
     for (const PanelEntry &entry : entries)
         for (const std::uint32_t p : garment::panels_named(mesh.mesh, entry.panels, entry.where)) {
-            const PanelFabric as_whole{p, whole.fabric, whole.back, whole.print};
+            const PanelFabric as_whole{p, whole.fabric, whole.back, whole.print, whole.opacity};
             apply(entry, fabrics, panels.try_emplace(p, as_whole).first->second);
             if (entry.grain)
                 options.frames.grain[mesh.mesh.panel_name[p]] = *entry.grain;
@@ -54,7 +57,8 @@ Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
     for (const auto &[p, panel] : panels) {
         whole.panels.push_back(panel);
         if (!fabrics[panel.fabric.value].needs_frames &&
-            !(panel.back && fabrics[panel.back->value].needs_frames) && !panel.print)
+            !(panel.back && fabrics[panel.back->value].needs_frames) && !panel.print &&
+            !panel.opacity)
             options.frames.plain.insert(mesh.mesh.panel_name[p]);
     }
     return whole;

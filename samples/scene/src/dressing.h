@@ -15,6 +15,7 @@ struct Dressing {
     FabricIndex fabric{};
     std::optional<FabricIndex> back{};
     std::optional<PrintIndex> print{};
+    std::optional<OpacityIndex> opacity{};
     std::vector<PanelFabric> panels{};
 
     Object object(std::string name, SurfaceIndex surface) &&;
@@ -23,7 +24,9 @@ struct Dressing {
 // A fabric that panels can have.
 struct DressingFabric {
     bool needs_frames = false;
-    std::optional<PrintIndex> print{}; // where the panel has no other
+    // Where the panel has no other
+    std::optional<PrintIndex> print{};
+    std::optional<OpacityIndex> opacity{};
 };
 
 // Finds the panels that the entries name, later ones before earlier ones, and sets their grain in

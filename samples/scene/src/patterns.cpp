@@ -7,7 +7,8 @@
 
 namespace tsuya::scene {
 
-void add_prints(const std::vector<PatternEntry> &patterns, Scene &scene) {
+void add_pictures(const std::vector<PatternEntry> &patterns,
+                  const std::vector<OpacityEntry> &opacities, Scene &scene) {
     std::map<std::pair<std::filesystem::path, bool>, TextureIndex> known;
     const auto texture = [&](const std::filesystem::path &picture, bool coverage) {
         const auto [at, added] = known.try_emplace(
@@ -23,6 +24,8 @@ void add_prints(const std::vector<PatternEntry> &patterns, Scene &scene) {
             print.layers.push_back({.picture = texture(picture, dye.has_value()),
                                     .inks = dye ? std::vector{*dye} : rgb_inks()});
     }
+    for (const auto &[picture, placement] : opacities)
+        scene.opacities.push_back({texture(picture, true), placement});
 }
 
 } // namespace tsuya::scene

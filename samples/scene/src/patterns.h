@@ -8,8 +8,9 @@
 
 namespace tsuya::scene {
 
-// Makes the patterns the prints of the scene, in their order; reads each picture once. Throws Error
-// at the path of a picture.
-void add_prints(const std::vector<PatternEntry> &patterns, Scene &scene);
+// Makes the patterns the prints of the scene, in their order, and the opacities its own; reads each
+// picture once. Throws Error at the path of a picture.
+void add_pictures(const std::vector<PatternEntry> &patterns,
+                  const std::vector<OpacityEntry> &opacities, Scene &scene);
 
 } // namespace tsuya::scene

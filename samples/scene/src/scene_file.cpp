@@ -119,11 +119,12 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
     Scene &scene = built.scene;
     for (const FabricEntry &entry : file.fabrics)
         scene.fabrics.push_back(load_fabric(entry, file.path.string()));
-    add_prints(file.patterns, scene);
+    add_pictures(file.patterns, file.opacities, scene);
     std::vector<DressingFabric> fabrics;
     for (std::size_t i = 0; i < file.fabrics.size(); ++i)
         fabrics.push_back({.needs_frames = needs_frames(scene.fabrics[i]),
-                           .print = index_of<PrintTag>(file.fabrics[i].pattern)});
+                           .print = index_of<PrintTag>(file.fabrics[i].pattern),
+                           .opacity = index_of<OpacityTag>(file.fabrics[i].opacity)});
     SceneMeshes meshes(progress);
     for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
         for (const MeshEntry &entry : *entries) {
@@ -135,10 +136,13 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
                            .options = entry.options,
                            .tolerance_px = entry.tolerance_px,
                            .translate = entry.translate};
-            const auto pattern = entry.pattern ? entry.pattern : file.fabrics[entry.fabric].pattern;
+            const FabricEntry &fabric = file.fabrics[entry.fabric];
+            const auto pattern = entry.pattern ? entry.pattern : fabric.pattern;
+            const auto opacity = entry.opacity ? entry.opacity : fabric.opacity;
             Dressing dressing = dress({.fabric = index_of<FabricTag>(entry.fabric),
                                        .back = index_of<FabricTag>(entry.back),
-                                       .print = index_of<PrintTag>(pattern)},
+                                       .print = index_of<PrintTag>(pattern),
+                                       .opacity = index_of<OpacityTag>(opacity)},
                                       entry.panels, fabrics, mesh.file, mesh.options);
             add_object(scene, entry.name, meshes.add(std::move(mesh)), std::move(dressing));
         }

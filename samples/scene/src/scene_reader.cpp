@@ -65,31 +65,44 @@ std::optional<Spectrum> SceneReader::colour(const Section &section, const char *
     return constant ? std::optional(Spectrum::constant(*constant)) : std::nullopt;
 }
 
+Placement SceneReader::placement(const Section &section) {
+    Placement placement;
+    placement.width = section.required_number("width_m", kSmallest, kLargest);
+    if (const auto origin = section.numbers("origin_m")) {
+        if (origin->size() == 2)
+            placement.origin = {(*origin)[0], (*origin)[1]};
+        else
+            section.problem("origin_m",
+                            "'origin_m' has " + std::to_string(origin->size()) + " numbers",
+                            "expected two, such as [0.1, 0]");
+    }
+    placement.turn = section.number("turn_deg", -360, 360).value_or(0) * kDegree;
+    if (const auto repeat = section.text("repeat")) {
+        const auto found = std::ranges::find(kRepeatNames, *repeat);
+        placement.repeat = static_cast<Repeat>(found - kRepeatNames.begin());
+        if (found == kRepeatNames.end()) {
+            placement.repeat = Repeat::tile;
+            section.problem("repeat", "no repeat '" + *repeat + "'",
+                            "expected tile, mirror or once");
+        }
+    }
+    return placement;
+}
+
+std::optional<std::size_t> SceneReader::opacity(const Section &of) {
+    const auto section = of.section("opacity");
+    if (!section)
+        return {};
+    file_.opacities.push_back({existing_file(*section, "picture", true), placement(*section)});
+    return file_.opacities.size() - 1;
+}
+
 std::optional<std::size_t> SceneReader::pattern(const Section &of, const std::string &owner) {
     const auto section = of.section("pattern");
     if (!section)
         return {};
     PatternEntry entry{.name = owner};
-    Placement &placement = entry.placement;
-    placement.width = section->required_number("width_m", kSmallest, kLargest);
-    if (const auto origin = section->numbers("origin_m")) {
-        if (origin->size() == 2)
-            placement.origin = {(*origin)[0], (*origin)[1]};
-        else
-            section->problem("origin_m",
-                             "'origin_m' has " + std::to_string(origin->size()) + " numbers",
-                             "expected two, such as [0.1, 0]");
-    }
-    placement.turn = section->number("turn_deg", -360, 360).value_or(0) * kDegree;
-    if (const auto repeat = section->text("repeat")) {
-        const auto found = std::ranges::find(kRepeatNames, *repeat);
-        placement.repeat = static_cast<Repeat>(found - kRepeatNames.begin());
-        if (found == kRepeatNames.end()) {
-            placement.repeat = Repeat::tile;
-            section->problem("repeat", "no repeat '" + *repeat + "'",
-                             "expected tile, mirror or once");
-        }
-    }
+    entry.placement = placement(*section);
     if (section->has("picture"))
         entry.screens.push_back({existing_file(*section, "picture", true), {}});
     if (const auto screens = section->section("screens"))
@@ -197,6 +210,7 @@ void SceneReader::read_fabrics() {
             note(section, "lustre", [&] { entry.lustre = lustre_named(*lustre, ""); });
         entry.delustre = section.number("delustre", 0, 1);
         entry.pattern = pattern(section, "fabrics." + name);
+        entry.opacity = opacity(section);
         file_.fabrics.push_back(std::move(entry));
     }
 }
@@ -212,6 +226,7 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         entry.fabric = fabric_named(section, "fabric").value_or(0);
         entry.back = fabric_named(section, "back");
         entry.pattern = pattern(section, std::string(kind) + "." + name);
+        entry.opacity = opacity(section);
         if (const auto panels = section.section("panels"))
             read_panels(*panels, yarn, entry);
         if (const auto unit = section.text("unit"))
@@ -256,7 +271,8 @@ void SceneReader::read_panels(const Section &panels, bool yarn, MeshEntry &entry
                          .where = section.where(),
                          .fabric = fabric_named(section, "fabric"),
                          .back = fabric_named(section, "back"),
-                         .pattern = pattern(section, "panels." + name)};
+                         .pattern = pattern(section, "panels." + name),
+                         .opacity = opacity(section)};
         if (yarn)
             if (const auto grain = section.number("grain_deg", -360, 360))
                 panel.grain = *grain * kDegree;

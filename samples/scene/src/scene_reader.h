@@ -44,6 +44,10 @@ class SceneReader {
     // `dye` or `reflectance`.
     std::optional<Spectrum> reflectance(const Section &section);
     std::optional<Spectrum> dyed(const Section &section, const char *key);
+    // Where a picture lies on the cloth.
+    static Placement placement(const Section &section);
+    // Index of the opacity of a fabric, a garment or panels; empty where it has none.
+    std::optional<std::size_t> opacity(const Section &of);
     // Index of the pattern of a fabric, a garment or panels; empty where it has none.
     std::optional<std::size_t> pattern(const Section &of, const std::string &owner);
     // A number from 0 to 1, or a text as `dye` has it.

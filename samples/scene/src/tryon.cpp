@@ -226,10 +226,10 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
              "expected the UVs of the panels, or a stated direction of the warp (--grain)"});
     std::optional<PrintIndex> print;
     if (!job.pattern.empty()) {
-        add_prints({{.name = "pattern",
-                     .screens = {{job.pattern, {}}},
-                     .placement = {.width = job.pattern_width}}},
-                   scene);
+        add_pictures({{.name = "pattern",
+                       .screens = {{job.pattern, {}}},
+                       .placement = {.width = job.pattern_width}}},
+                     {}, scene);
         print = PrintIndex{0};
     }
     Dressing dressing = dress({.fabric = {0}, .back = cloths.back, .print = print}, cloths.entries,

@@ -31,6 +31,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // A shadow ray ends this share short of the light.
 constexpr float kShadowReach = 1.0f - 1e-4f;
+// Behind as many layers of holes a ray meets nothing.
+constexpr std::size_t kMostHoles = 64;
 // Russian roulette from this vertex on.
 constexpr std::uint32_t kRouletteFrom = 3;
 
@@ -79,6 +81,48 @@ template <int K> bool PathTracer<K>::intersect(const Path &path, Hit &hit) {
     return scene_.accelerator.intersect(path.origin, path.direction, kInfinity, hit);
 }
 
+// From the hit on through holes, each by chance, to what the ray meets.
+// \param from_camera the ray is the camera's, whose numbers are its own
+template <int K> bool PathTracer<K>::pass_holes(const Path &path, bool from_camera, Hit &hit) {
+    const float angle = from_camera ? scene_.pixel_angle() : 0;
+    float distance = 0;
+    for (std::size_t layer = 0; layer < kMostHoles; ++layer) {
+        distance += hit.distance;
+        const float opacity = scene_.opacity(hit, angle * distance);
+        if (opacity >= 1 ||
+            path.random(Purpose::hole, from_camera ? layer : kMostHoles + layer).x < opacity) {
+            hit.distance = distance;
+            return true;
+        }
+        const glm::vec3 origin = scene_.behind(path.direction, hit);
+        ++rays_;
+        if (!scene_.accelerator.intersect(origin, path.direction, kInfinity, hit))
+            return false;
+    }
+    return false;
+}
+
+// The share of light that arrives from a distance.
+template <int K>
+float PathTracer<K>::transmission(glm::vec3 origin, const glm::vec3 &direction, float distance) {
+    ++rays_;
+    if (!scene_.has_holes())
+        return scene_.accelerator.occluded(origin, direction, distance) ? 0.0f : 1.0f;
+    float passed = 1;
+    Hit hit;
+    for (std::size_t layer = 0; layer < kMostHoles; ++layer) {
+        if (!scene_.accelerator.intersect(origin, direction, distance, hit))
+            return passed;
+        passed *= 1 - scene_.opacity(hit, 0);
+        if (!(passed > 0))
+            return 0;
+        origin = scene_.behind(direction, hit);
+        distance -= hit.distance;
+        ++rays_;
+    }
+    return 0;
+}
+
 // The c_i of the estimator.
 template <int K> float PathTracer<K>::light_share(const Path &path, std::size_t light) const {
     return path.vertex == 0 ? 1.0f : scene_.lights.choice_probability(light);
@@ -106,13 +150,14 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
     const Weighed w = vertex.weigh(ray->to_light);
     if (!(w.f_cos.sum() > 0))
         return;
-    ++rays_;
-    if (scene_.accelerator.occluded(vertex.ray_origin(ray->to_light), ray->to_light,
-                                    ray->distance * kShadowReach))
+    const float arrives =
+        transmission(vertex.ray_origin(ray->to_light), ray->to_light, ray->distance * kShadowReach);
+    if (!(arrives > 0))
         return;
     const float light_pdf = ray->pdf * light_share(path, light);
     path.radiance[ray->group].add(
-        coloured<K>(w.f_cos, colours, ray->radiance / (light_pdf + w.pdf)), path.throughput, 1.0f);
+        coloured<K>(w.f_cos, colours, ray->radiance / (light_pdf + w.pdf)), path.throughput,
+        arrives);
 }
 
 // Adds beta_n M_n; the path's throughput is beta_{n+1} already, but for the roulette.
@@ -160,7 +205,7 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
     path.direction = scene_.camera_direction(static_cast<float>(x) + 0.5f + tent(filter.x),
                                              static_cast<float>(y) + 0.5f + tent(filter.y));
     Hit hit;
-    if (!intersect(path, hit)) {
+    if (!intersect(path, hit) || (scene_.has_holes() && !pass_holes(path, true, hit))) {
         if (scene_.lights.has_environment() && scene_.lights.environment_visible())
             radiance[scene_.lights.environment_group()] =
                 Channels<K>::filled(scene_.lights.environment_radiance(path.direction));
@@ -199,7 +244,8 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
             return spoil(radiance);
 
         // Direct light, met by that ray
-        const bool found = intersect(path, hit);
+        const bool found =
+            intersect(path, hit) && (!scene_.has_holes() || pass_holes(path, false, hit));
         add_lights_met(path, found ? hit.distance : kInfinity, pdf);
 
         // End of the path

@@ -34,6 +34,8 @@ template <int K> class PathTracer {
   private:
     struct Path;
     bool intersect(const Path &path, Hit &hit);
+    bool pass_holes(const Path &path, bool from_camera, Hit &hit);
+    float transmission(glm::vec3 origin, const glm::vec3 &direction, float distance);
     void sample_lights(const Path &path, const Vertex &vertex, const Colours &colours);
     void sample_light(const Path &path, const Vertex &vertex, const Colours &colours,
                       std::size_t light);

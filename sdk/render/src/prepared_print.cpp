@@ -22,8 +22,7 @@ std::array<float, 8> corner_shares(const glm::vec3 &colour) {
 
 PreparedPrint::PreparedPrint(const Print &print, const std::vector<MipTexture> &textures,
                              const SpectralBasis &basis)
-    : origin_(print.placement.origin),
-      widths_per_metre_(static_cast<float>(1 / print.placement.width)),
+    : place_(print.placement, textures[print.layers.front().picture.value].width_over_height()),
       repeat_(print.placement.repeat), channels_(basis.count) {
     for (const PrintLayer &layer : print.layers) {
         PreparedLayer &made =
@@ -36,17 +35,12 @@ PreparedPrint::PreparedPrint(const Print &print, const std::vector<MipTexture> &
                            [](float v) { return std::min(v, 1.0f); });
         }
     }
-    const float turn = static_cast<float>(print.placement.turn);
-    const float aspect = layers_.front().picture->width_over_height();
-    right_ = widths_per_metre_ * glm::vec2(std::cos(turn), std::sin(turn));
-    up_ = widths_per_metre_ * aspect * glm::vec2(-std::sin(turn), std::cos(turn));
 }
 
 void PreparedPrint::dye(glm::vec2 uv, float footprint, ChannelValues &dye) const {
-    const glm::vec2 from = uv - origin_;
-    const glm::vec2 place(glm::dot(from, right_), glm::dot(from, up_));
+    const glm::vec2 place = place_.at(uv);
     for (const PreparedLayer &layer : layers_)
-        add(layer, layer.picture->at(place, footprint * widths_per_metre_, repeat_), dye);
+        add(layer, layer.picture->at(place, footprint * place_.widths_per_metre(), repeat_), dye);
 }
 
 void PreparedPrint::mean_dye(ChannelValues &dye) const {

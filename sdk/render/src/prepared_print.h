@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "channels.h"
+#include "cloth_place.h"
 #include "mip_texture.h"
 #include "tsuya/sdk/print.h"
 #include "tsuya/sdk/spectrum.h"
@@ -35,9 +36,7 @@ class PreparedPrint {
     void add(const PreparedLayer &layer, const glm::vec4 &pixel, ChannelValues &dye) const;
 
     std::vector<PreparedLayer> layers_{};
-    glm::vec2 right_{}, up_{}; // what a metre along the picture's axes is, in widths and heights
-    glm::vec2 origin_;
-    float widths_per_metre_;
+    ClothPlace place_;
     Repeat repeat_;
     int channels_;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "ray_offset.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -89,12 +90,17 @@ PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool 
 
 void PreparedScene::prepare_prints(const SpectralBasis &basis) {
     channels_ = basis.count;
-    if (scene.prints.empty())
+    if (scene.prints.empty() && scene.opacities.empty())
         return;
     for (const Texture &texture : scene.textures)
         textures_.emplace_back(texture);
     for (const Print &print : scene.prints)
         prints_.emplace_back(print, textures_, basis);
+    for (const auto &[picture, placement] : scene.opacities) {
+        const MipTexture &texture = textures_[picture.value];
+        opacities_.push_back(
+            {&texture, ClothPlace(placement, texture.width_over_height()), placement.repeat});
+    }
     for (const Fabric &fabric : scene.fabrics)
         dyes_.push_back(values_of(fabric.colours.dye, basis));
 }
@@ -117,7 +123,11 @@ void PreparedScene::prepare_sides() {
             if (of.print)
                 cloth.print = of.print->value;
             const std::uint32_t face = cloth_of(cloth);
-            return Sides{face, of.back ? of.back->value : face, !of.back && !surface.warp.empty()};
+            Sides made{
+                face, of.back ? of.back->value : face, !of.back && !surface.warp.empty(), {}};
+            if (of.opacity)
+                made.opacity = of.opacity->value;
+            return made;
         };
         std::vector<Sides> of_panel(object.panels.empty() ? 1 : panel_count(surface),
                                     sides(object));
@@ -188,11 +198,39 @@ Colours PreparedScene::printed(const SurfacePoint &point, float distance,
     return c;
 }
 
-PreparedScene::Sides PreparedScene::sides_at(std::uint32_t object, const Surface &surface,
-                                             std::uint32_t triangle) const {
-    const std::vector<Sides> &of_panel = sides_[object];
+const PreparedScene::Sides &PreparedScene::sides_at(const Hit &hit) const {
+    const std::vector<Sides> &of_panel = sides_[hit.object];
+    const Surface &surface = scene.surfaces[scene.objects[hit.object].surface.value];
     return of_panel.size() == 1 || surface.panel.empty() ? of_panel.front()
-                                                         : of_panel[surface.panel[triangle]];
+                                                         : of_panel[surface.panel[hit.triangle]];
+}
+
+float PreparedScene::opacity(const Hit &hit, float footprint) const {
+    const Sides &sides = sides_at(hit);
+    if (!sides.opacity)
+        return 1;
+    const auto &[picture, place, repeat] = opacities_[*sides.opacity];
+    const float cover =
+        picture->at(place.at(uv_at(hit)), footprint * place.widths_per_metre(), repeat).w;
+    constexpr float kWhole = 0.9999f; // what interpolation leaves of 1
+    return cover > kWhole ? 1.0f : cover;
+}
+
+glm::vec2 PreparedScene::uv_at(const Hit &hit) const {
+    const Surface &surface = scene.surfaces[scene.objects[hit.object].surface.value];
+    const glm::uvec3 t = surface.triangle[hit.triangle];
+    return hit.barycentric.x * surface.uv[t.x] + hit.barycentric.y * surface.uv[t.y] +
+           hit.barycentric.z * surface.uv[t.z];
+}
+
+glm::vec3 PreparedScene::behind(const glm::vec3 &direction, const Hit &hit) const {
+    const Surface &surface = scene.surfaces[scene.objects[hit.object].surface.value];
+    const glm::uvec3 t = surface.triangle[hit.triangle];
+    const std::vector<glm::vec3> &positions = accelerator.positions(hit.object);
+    const glm::vec3 point = hit.barycentric.x * positions[t.x] +
+                            hit.barycentric.y * positions[t.y] + hit.barycentric.z * positions[t.z];
+    const glm::vec3 normal = hit.face_normal / glm::length(hit.face_normal);
+    return offset_ray(point, glm::dot(normal, direction) > 0 ? normal : -normal);
 }
 
 void PreparedScene::prepare_camera() {
@@ -224,7 +262,7 @@ SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) co
     SurfacePoint point;
     // From the corners: more exact than along the ray
     point.position = interpolate(accelerator.positions(hit.object));
-    const Sides sides = sides_at(hit.object, surface, hit.triangle);
+    const Sides &sides = sides_at(hit);
     glm::vec3 geometric = hit.face_normal / glm::length(hit.face_normal);
     const bool behind = glm::dot(geometric, direction) > 0;
     if (behind)
@@ -233,8 +271,7 @@ SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) co
     point.cloth = behind ? sides.back : sides.face;
     point.colours = point.cloth + (exchanged ? static_cast<std::uint32_t>(cloths_.size()) : 0);
     if (is_printed(point))
-        point.uv = hit.barycentric.x * surface.uv[t.x] + hit.barycentric.y * surface.uv[t.y] +
-                   hit.barycentric.z * surface.uv[t.z];
+        point.uv = uv_at(hit);
     glm::vec3 normal = interpolate(surface.normal);
     const float length = glm::length(normal);
     normal = length > 0 ? normal / length : geometric;

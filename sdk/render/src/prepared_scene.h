@@ -57,6 +57,14 @@ struct PreparedScene {
 
     // The direction of the camera ray through a place of the picture, in pixels.
     glm::vec3 camera_direction(float x, float y) const;
+    // Some cloth has holes.
+    bool has_holes() const { return !opacities_.empty(); }
+    // The share of the place that is cloth. \param footprint what one sample stands for, metres
+    float opacity(const Hit &hit, float footprint) const;
+    // Where a ray goes on that went through a hole.
+    glm::vec3 behind(const glm::vec3 &direction, const Hit &hit) const;
+    // The angle that a pixel sees, radians.
+    float pixel_angle() const { return pixel_angle_; }
     // The point that a ray of this direction hit.
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
     bool is_printed(const SurfacePoint &point) const {
@@ -76,8 +84,16 @@ struct PreparedScene {
     struct Sides {
         std::uint32_t face, back;
         bool own_back; // the face's, with the yarn systems exchanged
+        std::optional<std::uint32_t> opacity;
     };
-    Sides sides_at(std::uint32_t object, const Surface &surface, std::uint32_t triangle) const;
+    const Sides &sides_at(const Hit &hit) const;
+    glm::vec2 uv_at(const Hit &hit) const;
+    // A map with its place.
+    struct PreparedOpacity {
+        const MipTexture *picture;
+        ClothPlace place;
+        Repeat repeat;
+    };
     void prepare_sides();
     void prepare_camera();
     void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials *kept,
@@ -89,6 +105,7 @@ struct PreparedScene {
     std::vector<Cloth> cloths_{};
     std::vector<std::vector<Sides>> sides_{};      // per object, per panel; one where all are alike
     std::vector<MipTexture> textures_{};           // of the scene, where there are prints
+    std::vector<PreparedOpacity> opacities_{};     // of the scene
     std::vector<PreparedPrint> prints_{};          // of the scene
     std::vector<ChannelValues> dyes_{};            // of the fabrics, below prints
     std::vector<std::vector<glm::vec2>> of_dye_{}; // per cloth, see Material

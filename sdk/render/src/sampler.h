@@ -58,6 +58,7 @@ enum class Purpose : std::uint32_t {
     lobe_and_strategy,
     direction,
     survival,
+    hole,
     count
 };
 

@@ -78,13 +78,16 @@ struct SceneCheck {
         check_fabric_of(dressed.fabric, surface, where, ".fabric");
         if (dressed.back)
             check_fabric_of(*dressed.back, surface, where, ".back");
-        if (!dressed.print)
-            return;
-        need(dressed.print->value < scene.prints.size(),
-             "no print " + std::to_string(dressed.print->value), where + ".print",
-             "expected an index below " + std::to_string(scene.prints.size()));
-        need(!surface || !surface->uv.empty(), "the surface has no UV for a print", where,
-             "expected the UVs of the panels");
+        if (dressed.print)
+            need(dressed.print->value < scene.prints.size(),
+                 "no print " + std::to_string(dressed.print->value), where + ".print",
+                 "expected an index below " + std::to_string(scene.prints.size()));
+        if (dressed.opacity)
+            need(dressed.opacity->value < scene.opacities.size(),
+                 "no opacity " + std::to_string(dressed.opacity->value), where + ".opacity",
+                 "expected an index below " + std::to_string(scene.opacities.size()));
+        need(!surface || !surface->uv.empty() || !(dressed.print || dressed.opacity),
+             "the surface has no UV for a picture", where, "expected the UVs of the panels");
     }
 
     void check_fabric_of(FabricIndex fabric, const Surface *surface, const std::string &where,
@@ -108,14 +111,28 @@ struct SceneCheck {
             }
         for (std::size_t i = 0; i < scene.prints.size(); ++i)
             check_print(scene.prints[i], "prints[" + std::to_string(i) + "]");
+        for (std::size_t i = 0; i < scene.opacities.size(); ++i) {
+            const auto &[picture, placement] = scene.opacities[i];
+            const std::string where = "opacities[" + std::to_string(i) + "]";
+            check_placement(placement, where);
+            need(picture.value < scene.textures.size() &&
+                     scene.textures[picture.value].channels == 1,
+                 "no texture of coverage " + std::to_string(picture.value), where,
+                 "expected the index of a texture with 1 channel");
+        }
+    }
+
+    void check_placement(const Placement &placement, const std::string &where) {
+        const auto &[width, origin, turn, repeat] = placement;
+        need(width > 0 && width <= kLargestLength,
+             "the picture is " + number_text(width) + " m wide", where + ".width",
+             "expected a width above 0");
+        need(is_length({origin, 0}) && std::isfinite(turn),
+             "the place of the picture is not finite", where, "expected metres and radians");
     }
 
     void check_print(const Print &print, const std::string &where) {
-        const auto &[width, origin, turn, repeat] = print.placement;
-        need(width > 0 && width <= kLargestLength, "the print is " + number_text(width) + " m wide",
-             where + ".width", "expected a width above 0");
-        need(is_length({origin, 0}) && std::isfinite(turn), "the place of the print is not finite",
-             where, "expected metres and radians");
+        check_placement(print.placement, where);
         need(!print.layers.empty(), "the print has no layer", where, "expected a picture");
         for (std::size_t i = 0; i < print.layers.size(); ++i) {
             const PrintLayer &layer = print.layers[i];

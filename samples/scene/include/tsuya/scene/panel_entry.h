@@ -16,6 +16,7 @@ struct PanelEntry {
     std::optional<std::size_t> fabric{};  ///< into the fabrics
     std::optional<std::size_t> back{};    ///< what is seen from behind, into the fabrics
     std::optional<std::size_t> pattern{}; ///< into the patterns
+    std::optional<std::size_t> opacity{}; ///< into the opacities
     std::optional<double> grain{};        ///< radians, see garment::FrameOptions
 };
 

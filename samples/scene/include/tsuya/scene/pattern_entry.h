@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is printed on a fabric, a garment or some of its panels.
+/// Pictures on a fabric, a garment or some of its panels: what is printed, and where holes are.
 
 #include <filesystem>
 #include <optional>
@@ -22,6 +22,12 @@ struct ScreenEntry {
 struct PatternEntry {
     std::string name{};                 ///< for messages
     std::vector<ScreenEntry> screens{}; ///< the lowest first
+    Placement placement{};
+};
+
+/// `opacity = { picture = "lace.png", width_m = 0.2 }`
+struct OpacityEntry {
+    std::filesystem::path picture{};
     Placement placement{};
 };
 

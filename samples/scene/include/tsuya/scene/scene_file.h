@@ -36,6 +36,7 @@ struct FabricEntry {
     std::optional<Lustre> lustre{};
     std::optional<double> delustre{};
     std::optional<std::size_t> pattern{}; ///< into SceneFile::patterns
+    std::optional<std::size_t> opacity{}; ///< into SceneFile::opacities
 };
 
 /// `[garments.NAME]` or `[bodies.NAME]`. Bodies have no yarn directions.
@@ -46,6 +47,7 @@ struct MeshEntry {
     std::size_t fabric = 0;               ///< into SceneFile::fabrics
     std::optional<std::size_t> back{};    ///< the same; see Object::back
     std::optional<std::size_t> pattern{}; ///< into SceneFile::patterns, in place of the fabric's
+    std::optional<std::size_t> opacity{}; ///< into SceneFile::opacities, in place of the fabric's
     std::vector<PanelEntry> panels{};     ///< `[garments.NAME.panels."PATTERN"]`
     garment::Options options{};
     std::optional<double> tolerance_px{}; ///< of the scene's camera; in place of the level
@@ -74,6 +76,7 @@ struct SceneFile {
     Framing framing{};              ///< of all visible garments and bodies
     std::vector<FabricEntry> fabrics{};
     std::vector<PatternEntry> patterns{};
+    std::vector<OpacityEntry> opacities{};
     std::vector<MeshEntry> garments{};
     std::vector<MeshEntry> bodies{};
     std::optional<BackdropEntry> backdrop{};

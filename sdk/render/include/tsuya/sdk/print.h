@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Prints: pictures in dye on cloth, laid in metres of cloth.
+/// Pictures on cloth, laid in metres of cloth: prints in dye, and where there are holes.
 ///
 ///     scene.textures = {read_texture("toile.png")};
 ///     scene.prints = {{.name = "toile", .layers = {{.picture = {0}, .inks = rgb_inks()}},
@@ -51,6 +51,12 @@ struct PrintLayer {
 struct Print {
     std::string name{};               ///< for messages
     std::vector<PrintLayer> layers{}; ///< the lowest first, at least one
+    Placement placement{};
+};
+
+/// Where there is cloth and where there are holes: lace, tulle, a net.
+struct Opacity {
+    TextureIndex picture{}; ///< of coverage: 0 is a hole
     Placement placement{};
 };
 

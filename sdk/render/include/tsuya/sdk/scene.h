@@ -30,8 +30,9 @@ inline constexpr double kSmallestLight = 1e-14; ///< area of a rectangle, square
 struct PanelFabric {
     std::uint32_t panel = 0; ///< of the surface's
     FabricIndex fabric{};
-    std::optional<FabricIndex> back{}; ///< as Object::back
-    std::optional<PrintIndex> print{}; ///< as Object::print
+    std::optional<FabricIndex> back{};     ///< as Object::back
+    std::optional<PrintIndex> print{};     ///< as Object::print
+    std::optional<OpacityIndex> opacity{}; ///< as Object::opacity
 };
 
 /// A surface dressed in a fabric.
@@ -46,6 +47,9 @@ struct Object {
     /// What is printed on the fabric, in place of its dye; it shows on the fabric's own back as
     /// well. For surfaces with UVs.
     std::optional<PrintIndex> print{};
+    /// Where the cloth has holes; empty: nowhere. For surfaces with UVs. Paths go through a hole or
+    /// not by chance, light to a point is weakened by what lies on its way.
+    std::optional<OpacityIndex> opacity{};
     std::vector<PanelFabric> panels{}; ///< each panel once; those not here are as the object
 };
 
@@ -74,6 +78,7 @@ struct Scene {
     std::vector<Fabric> fabrics{};
     std::vector<Texture> textures{};
     std::vector<Print> prints{};
+    std::vector<Opacity> opacities{};
     std::vector<Object> objects{};
     std::vector<std::string> light_groups{
         "key"}; ///< each gets its own transport, and so its own lamp

@@ -19,6 +19,8 @@ using FabricIndex = Index<struct FabricTag>;
 using TextureIndex = Index<struct TextureTag>;
 /// Into Scene::prints.
 using PrintIndex = Index<struct PrintTag>;
+/// Into Scene::opacities.
+using OpacityIndex = Index<struct OpacityTag>;
 /// Into Scene::light_groups.
 using LightGroupIndex = Index<struct LightGroupTag>;
 

@@ -57,21 +57,29 @@ template <class F, detail::MaybeConst<Print> T> void each_field(F &&f, T &print)
     f(detail::Field{"placement"}, placement);
 }
 
+template <class F, detail::MaybeConst<Opacity> T> void each_field(F &&f, T &opacity) {
+    auto &[picture, placement] = opacity;
+    f(detail::Field{"picture"}, picture);
+    f(detail::Field{"placement"}, placement);
+}
+
 template <class F, detail::MaybeConst<PanelFabric> T> void each_field(F &&f, T &panel_fabric) {
-    auto &[panel, fabric, back, print] = panel_fabric;
+    auto &[panel, fabric, back, print, opacity] = panel_fabric;
     f(detail::Field{"panel"}, panel);
     f(detail::Field{"fabric"}, fabric);
     f(detail::Field{"back"}, back);
     f(detail::Field{"print"}, print);
+    f(detail::Field{"opacity"}, opacity);
 }
 
 template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &object) {
-    auto &[name, surface, fabric, back, print, panels] = object;
+    auto &[name, surface, fabric, back, print, opacity, panels] = object;
     f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"surface"}, surface);
     f(detail::Field{"fabric"}, fabric);
     f(detail::Field{"back"}, back);
     f(detail::Field{"print"}, print);
+    f(detail::Field{"opacity"}, opacity);
     f(detail::Field{"panels"}, panels);
 }
 
@@ -112,12 +120,13 @@ template <class F, detail::MaybeConst<Camera> T> void each_field(F &&f, T &camer
 }
 
 template <class F, detail::MaybeConst<Scene> T> void each_field(F &&f, T &scene) {
-    auto &[surfaces, fabrics, textures, prints, objects, light_groups, rectangles, environment,
-           camera] = scene;
+    auto &[surfaces, fabrics, textures, prints, opacities, objects, light_groups, rectangles,
+           environment, camera] = scene;
     f(detail::Field{"surfaces"}, surfaces);
     f(detail::Field{"fabrics"}, fabrics);
     f(detail::Field{"textures"}, textures);
     f(detail::Field{"prints"}, prints);
+    f(detail::Field{"opacities"}, opacities);
     f(detail::Field{"objects"}, objects);
     f(detail::Field{"light_groups"}, light_groups);
     f(detail::Field{"rectangles"}, rectangles);
