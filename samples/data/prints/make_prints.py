@@ -1,4 +1,5 @@
-"""Makes sakura.png, a print of cherry blossoms that tiles, and border.png, a border for a hem.
+"""Makes sakura.png, a print of cherry blossoms that tiles, border.png, a border for a hem, and
+lace.png, where the holes of a lace are: white is thread.
 
     python3 make_prints.py [OUTDIR]
 
@@ -166,7 +167,40 @@ def border(width, height):
     return picture
 
 
+def lace(side):
+    """Flowers on a net of diamonds; tiles."""
+    black, white = (0.0,) * 3, (1.0,) * 3
+    picture = Picture(side, side, black)
+    apart = side / 28
+
+    def net(dx, dy):
+        def to_line(v):
+            return abs((v / apart + 0.5) % 1 - 0.5) * apart / math.sqrt(2)
+
+        return white, min(to_line(dx + dy), to_line(dx - dy)) - 1.1
+
+    picture.draw(side / 2, side / 2, side / 2 - 1, net)
+
+    def flower(size, turn):
+        def shape(dx, dy):
+            r, angle = math.hypot(dx, dy), math.atan2(dy, dx) + turn
+            in_petal = (angle * 6 / (2 * math.pi)) % 1 - 0.5
+            outline = size * (0.55 + 0.45 * math.cos(math.pi * in_petal) ** 0.8)
+            hole = max(0.1 * size - r, 0)
+            vein = 0.5 + 0.5 * math.cos(10 * math.pi * r / size)
+            cover = 0.55 + 0.45 * vein if abs(in_petal) < 0.34 else 1.0
+            return (cover if hole <= 0 else 0.0,) * 3, r - outline
+
+        return shape
+
+    for k in range(9):
+        x, y = (k % 3 + 0.5 * (k // 3 % 2)) * side / 3 + side / 6, (k // 3) * side / 3 + side / 6
+        picture.draw(x, y, 0.12 * side, flower(0.11 * side, 0.4 * k))
+    return picture
+
+
 if __name__ == "__main__":
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     sakura(768).write(os.path.join(folder, "sakura.png"))
     border(768, 512).write(os.path.join(folder, "border.png"))
+    lace(512).write(os.path.join(folder, "lace.png"))
