@@ -22,21 +22,6 @@ void check_options(const Options &options, const std::string &where) {
                      where + ": metres_per_uv", "expected a positive number"});
 }
 
-/// The scale of UVs that applies, with a finding where it had to be measured.
-double choose_uv_scale(const Options &options, Report &report) {
-    const double weft = report.metres_per_uv_weft.p50, warp = report.metres_per_uv_warp.p50;
-    if (options.metres_per_uv)
-        return *options.metres_per_uv;
-    const double measured = std::sqrt(weft * warp);
-    if (!(measured > 0.0) || !std::isfinite(measured) || (measured >= 0.5 && measured <= 2.0))
-        return 1.0;
-    report.findings.push_back({Severity::warning, "uv_scale_measured",
-                               "a unit of UV measures " + std::to_string(measured) +
-                                   " m of cloth, so UVs are not in metres",
-                               "", "scaled to metres by this number; state the scale to be sure"});
-    return measured;
-}
-
 void find_repairs(Report &report) {
     const auto add = [&](std::size_t count, const char *key, const char *what, const char *action) {
         if (count > 0)
@@ -117,7 +102,7 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options, const std::
                                    options.frames.plain, progress)
                             .run();
     if (options.want_frames) {
-        prepared.report.metres_per_uv = choose_uv_scale(options, prepared.report);
+        prepared.report.metres_per_uv = choose_uv_scale(options.metres_per_uv, prepared.report);
     } else {
         prepared.mesh.uv.clear();
         std::fill(prepared.mesh.corner_uv.begin(), prepared.mesh.corner_uv.end(), -1);

@@ -23,12 +23,14 @@ struct GarmentCheck final : Command {
     std::filesystem::path mesh{};
     std::string unit = "m";
     garment::SeamOptions seams{};
+    std::optional<double> metres_per_uv{};
     bool json = false, strict = false;
 
     void options(Options &o) override {
         o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
         add_unit(o, unit, "length unit of the mesh");
         add_sewing_tolerance(o, seams.tolerance);
+        add_uv_scale(o, metres_per_uv);
         o.flag("--json", &json, "print the report as JSON");
         o.flag("--strict", &strict, "exit status 4 where there is a warning");
         o.example("tsuya garment check dress.obj --strict");
@@ -40,7 +42,8 @@ struct GarmentCheck final : Command {
         garment::PolygonMesh read = garment::read_mesh(mesh, console.progress()).mesh;
         for (glm::dvec3 &p : read.position)
             p *= metres;
-        const garment::Report report = garment::check(std::move(read), seams, console.progress());
+        const garment::Report report =
+            garment::check(std::move(read), seams, console.progress(), metres_per_uv);
         if (json)
             std::cout << json_of(report).text() << "\n";
         else

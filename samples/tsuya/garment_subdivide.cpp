@@ -22,6 +22,7 @@ struct GarmentSubdivide final : Command {
     double seam_crease = 0, fold_crease = 0, fold_angle_deg = 60;
     double max_degenerate_area = garment::FrameOptions{}.max_degenerate_area;
     garment::SeamOptions seams{};
+    std::optional<double> metres_per_uv{};
     bool strict = false;
 
     void options(Options &o) override {
@@ -50,10 +51,11 @@ struct GarmentSubdivide final : Command {
                  "share of the area without a usable UV above which it is an error")
             .range(0, 1);
         add_sewing_tolerance(o, seams.tolerance);
+        add_uv_scale(o, metres_per_uv);
         o.flag("--strict", &strict, "refuse a mesh with a warning");
         o.option("--grain", &grain, "DIRECTION",
-                 "warp direction of a mesh without UV: vertical, horizontal, or degrees from the "
-                 "vertical")
+                 "warp direction where the mesh has no usable UV: vertical, horizontal, or degrees "
+                 "from the vertical")
             .check([this] { parse_grain(grain); });
         o.example("tsuya garment subdivide dress.obj -o fine.ply --tolerance 1e-4");
     }
@@ -61,6 +63,7 @@ struct GarmentSubdivide final : Command {
     Status run(Console &console) override {
         scene::check_output_file(output);
         const garment::Options settings{.metres_per_unit = garment::metres_per(unit),
+                                        .metres_per_uv = metres_per_uv,
                                         .seams = seams,
                                         .subdivide = {.level = level,
                                                       .tolerance = tolerance,

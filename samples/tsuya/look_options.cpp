@@ -23,11 +23,18 @@ DisplayOptions LookOptions::look() const {
     return {.adapt = parse_adaptation(adapt), .view = view, .exposure_stops = exposure_stops};
 }
 
-void add_sewing_tolerance(Options &options, double &metres) {
+void add_sewing_tolerance(Options &options, std::optional<double> &metres) {
     options
         .option("--sewing-tolerance", &metres, "METRES",
-                "largest gap over which the edges of panels are joined")
+                "largest gap over which the edges of panels are joined, 0.0005 where none is given")
         .range(0, 1);
+}
+
+void add_uv_scale(Options &options, std::optional<double> &metres_per_uv) {
+    options
+        .option("--metres-per-uv", &metres_per_uv, "METRES",
+                "metres of cloth in a unit of UV; measured where none is given")
+        .positive();
 }
 
 void add_unit(Options &options, std::string &unit, std::string help) {

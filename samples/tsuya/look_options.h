@@ -21,7 +21,10 @@ struct LookOptions {
 };
 
 /// `--sewing-tolerance`, see garment::SeamOptions; shows the default that `metres` has.
-void add_sewing_tolerance(Options &options, double &metres);
+void add_sewing_tolerance(Options &options, std::optional<double> &metres);
+
+/// `--metres-per-uv`
+void add_uv_scale(Options &options, std::optional<double> &metres_per_uv);
 
 /// `--unit`. \param help what has the unit
 void add_unit(Options &options, std::string &unit, std::string help);

@@ -5,6 +5,7 @@
 #include "test_meshes.h"
 #include "tsuya/garment/frames.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/garment/garment.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/frame.h"
 
@@ -158,6 +159,46 @@ TEST(Frames, WithoutUvThereIsABodyOrAnInventedGrain) {
     EXPECT_LT(
         glm::distance(surface_of(m, {.invented_grain = 90 * kDegree}).warp[3], glm::vec3(-1, 0, 0)),
         1e-6f);
+}
+
+// The right half of the UVs is the mirror image of the left: across the fold neither side's
+// derivatives may show.
+TEST(Frames, AFoldedIslandIsCutWhereItTurnsOver) {
+    PolygonMesh mesh = test::panel(8, 8, 0.1);
+    for (std::size_t v = 0; v < mesh.uv.size(); ++v) {
+        const glm::dvec3 p = mesh.position[v];
+        mesh.uv[v] = {0.4 - std::abs(p.x - 0.4), p.y};
+    }
+    const Surface surface = load(mesh, {.subdivide = {.level = 2}}, "t").surface;
+    for (const glm::vec3 &warp : surface.warp)
+        EXPECT_LT(glm::distance(warp, glm::vec3(0, 1, 0)), 1e-4f);
+    for (const glm::vec3 &weft : surface.weft)
+        EXPECT_LT(glm::distance(weft, glm::vec3(1, 0, 0)), 1e-4f);
+}
+
+// A stated grain is for what has no UV, and leaves the rest as it is.
+TEST(Frames, AStatedGrainFillsBadPartsAlone) {
+    PolygonMesh mesh = test::panel(4, 4, 0.1);
+    for (const std::size_t f : {0u, 1u, 4u, 5u}) // a quarter
+        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
+            mesh.corner_uv[c] = -1;
+    for (glm::dvec2 &uv : mesh.uv)
+        uv = {uv.y, -uv.x}; // the warp lies along +x
+    EXPECT_THROW(load(mesh, {}, "t"), Error);
+    const Surface surface = load(mesh, {.frames = {.invented_grain = 0.0}}, "t").surface;
+    std::size_t filled = 0, kept = 0;
+    for (std::size_t v = 0; v < surface.warp.size(); ++v) {
+        const glm::dvec3 p = surface.position[v];
+        if (p.x < 0.19 && p.y < 0.19) {
+            EXPECT_LT(glm::distance(surface.warp[v], glm::vec3(0, 1, 0)), 1e-4f);
+            ++filled;
+        } else if (p.x > 0.21 || p.y > 0.21) {
+            EXPECT_LT(glm::distance(glm::abs(surface.warp[v]), glm::vec3(1, 0, 0)), 1e-4f);
+            ++kept;
+        }
+    }
+    EXPECT_GT(filled, 0u);
+    EXPECT_GT(kept, 0u);
 }
 
 } // namespace

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include <set>
@@ -82,6 +84,85 @@ TEST(Seams, SlitsAreClosed) {
     const Report closed = check(two);
     EXPECT_EQ(closed.openings.size(), 1u);
     EXPECT_EQ(closed.seams.slits, 1u);
+}
+
+/// A tube about the y axis; `warp` edges around, `rows` upwards.
+PolygonMesh tube(double radius, double height, int around, int rows) {
+    return test::grid(around, rows, true, false, glm::dvec2(0.01), [&](int i, int j) {
+        const double angle = 2 * std::numbers::pi * i / around;
+        return glm::dvec3(radius * std::sin(angle), height * j / rows, radius * std::cos(angle));
+    });
+}
+
+/// The other side out.
+PolygonMesh turned(PolygonMesh mesh) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        std::reverse(mesh.corner_position.begin() + mesh.face_offset[f],
+                     mesh.corner_position.begin() + mesh.face_offset[f + 1]);
+        std::reverse(mesh.corner_uv.begin() + mesh.face_offset[f],
+                     mesh.corner_uv.begin() + mesh.face_offset[f + 1]);
+    }
+    return mesh;
+}
+
+TEST(Seams, AHemOfFineEdgesIsNoSlit) {
+    for (const double edge : {1.2e-3, 0.4e-3}) {
+        const int around = static_cast<int>(std::lround(std::numbers::pi * 0.078 / edge));
+        const PolygonMesh cuff = tube(0.039, 16 * edge, around, 16);
+        const Prepared prepared = prepare(cuff);
+        EXPECT_EQ(prepared.report.seams.slits, 0u) << edge;
+        EXPECT_EQ(prepared.report.seams.unresolved, 0u);
+        EXPECT_EQ(prepared.report.openings.size(), 2u);
+        EXPECT_EQ(prepared.mesh.position, cuff.position);
+    }
+}
+
+// A lining on its cloth, or 0.3 mm inside it, is not sewn to it.
+TEST(Seams, LayersThatLieOnEachOtherAreNotSewn) {
+    for (const double apart : {0.0, 0.3e-3})
+        for (const int rows : {12, 7}) {
+            const PolygonMesh outer = tube(0.26, 0.6, 24, 12);
+            const PolygonMesh inner = tube(0.26 - apart, 0.6, 24, rows);
+            for (const PolygonMesh &lining : {inner, turned(inner)}) {
+                const Report report = check(both(outer, lining));
+                EXPECT_EQ(report.parts, 2u);
+                EXPECT_EQ(report.openings.size(), 4u);
+                EXPECT_EQ(report.joined.duplicate_faces + report.joined.degenerate_faces, 0u);
+                EXPECT_EQ(report.seams.layered, 96u);
+                EXPECT_TRUE(keys(report).contains("two_layers"));
+            }
+        }
+    // Negative control: one above the other they are sewn
+    PolygonMesh above = tube(0.26, 0.6, 24, 12);
+    for (glm::dvec3 &p : above.position)
+        p.y += 0.6 + 0.3e-3;
+    const Report sewn = check(both(tube(0.26, 0.6, 24, 12), above));
+    EXPECT_EQ(sewn.parts, 1u);
+    EXPECT_EQ(sewn.openings.size(), 2u);
+    EXPECT_EQ(sewn.seams.layered, 0u);
+}
+
+// In whatever unit a file is, and whatever was said about it.
+TEST(Seams, ASmallerOrLargerMeshIsSewnAlike) {
+    PolygonMesh two = triangulated(both(panel(4, 6, 0.1), panel(3, 5, 0.12, {0.4003, 0, 0})));
+    const Report as_it_is = check(two);
+    EXPECT_EQ(as_it_is.parts, 1u);
+    for (const double scale : {1e-3, 1e-2, 1e2, 1e3}) {
+        PolygonMesh scaled = two;
+        for (glm::dvec3 &p : scaled.position)
+            p *= scale;
+        const Report report = check(scaled);
+        EXPECT_EQ(report.parts, as_it_is.parts) << scale;
+        EXPECT_EQ(report.seams.joined, as_it_is.seams.joined);
+        EXPECT_EQ(report.seams.splits, as_it_is.seams.splits);
+        EXPECT_EQ(report.seams.boundary_after, as_it_is.seams.boundary_after);
+        EXPECT_EQ(report.openings.size(), as_it_is.openings.size());
+        EXPECT_NEAR(report.seams.tolerance, scale * 0.5e-3, 1e-12 * scale);
+    }
+    PolygonMesh small = two;
+    for (glm::dvec3 &p : small.position)
+        p *= 1e3;
+    EXPECT_EQ(check(small, {.tolerance = 0.5e-3}).parts, 2u); // as it was asked for
 }
 
 TEST(Seams, PleatsAreJoinedInPairsOfLayers) {
@@ -213,6 +294,17 @@ TEST(Check, MeasuresUvScaleUnitsAndMirroring) {
     EXPECT_FALSE(keys(report).contains("unusual_size"));
     PolygonMesh large = panel(4, 4, 30.0);
     EXPECT_TRUE(keys(check(large)).contains("unusual_size"));
+}
+
+TEST(Check, SaysThatUvsAreNotInMetres) {
+    PolygonMesh mesh = panel(4, 4, 0.1);
+    for (glm::dvec2 &uv : mesh.uv)
+        uv *= 0.1;
+    const Report report = check(mesh);
+    EXPECT_TRUE(keys(report).contains("uv_scale_measured"));
+    EXPECT_NEAR(report.metres_per_uv, 10, 1e-9);
+    EXPECT_FALSE(keys(check(mesh, {}, {}, 10.0)).contains("uv_scale_measured"));
+    EXPECT_FALSE(keys(check(panel(4, 4, 0.1))).contains("uv_scale_measured"));
 }
 
 TEST(Check, MeasuresShearAndTheGrainOfEachPanel) {

@@ -45,12 +45,15 @@ std::vector<glm::dvec2> panel_grain(const LimitMesh &mesh, const FrameOptions &o
     return turn;
 }
 
-/// Warp along the vertical in the tangent plane, for meshes without UV.
-void invent_frames(const LimitMesh &mesh, double angle, Surface &s, const Progress &progress) {
+/// Warp along the vertical in the tangent plane, of vertices that are not `valid`.
+void invent_frames(const LimitMesh &mesh, double angle, const std::vector<bool> &valid, Surface &s,
+                   const Progress &progress) {
     s.warp.resize(mesh.position.size());
     s.weft.resize(mesh.position.size());
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
         look_at_stop(progress, v);
+        if (valid[v])
+            continue;
         const glm::dvec3 n(mesh.normal[v]);
         glm::vec3 up;
         if (!into_plane({0, 1, 0}, n, up))
@@ -187,16 +190,19 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
     if (std::find(valid.begin(), valid.end(), false) != valid.end()) {
         if (report.repaired_area_share > options.max_degenerate_area) {
             if (!options.invented_grain)
-                throw Error(
-                    {std::to_string(100.0 * report.repaired_area_share) +
-                         " % of the area has no usable UV",
-                     where,
-                     "expected at most " + std::to_string(100.0 * options.max_degenerate_area) +
-                         " %, or a stated direction of the warp (--grain, invented_grain_deg)"});
-            invent_frames(mesh, *options.invented_grain, s, progress);
-            return;
+                throw Error({std::to_string(100.0 * report.repaired_area_share) +
+                                 " % of the area has no usable UV",
+                             where,
+                             "expected at most " +
+                                 std::to_string(100.0 * options.max_degenerate_area) +
+                                 " % (--max-degenerate-area, max_degenerate_area), or a stated "
+                                 "direction of "
+                                 "the warp there (--grain, invented_grain_deg)"});
         }
-        spread_frames(mesh, s, valid);
+        if (options.invented_grain)
+            invent_frames(mesh, *options.invented_grain, valid, s, progress);
+        else
+            spread_frames(mesh, s, valid);
     }
     s.uv.resize(mesh.uv.size());
     for (std::size_t v = 0; v < s.uv.size(); ++v) {
@@ -215,7 +221,8 @@ Surface add_frames(LimitMesh mesh, const FrameOptions &options, FrameReport &rep
     if (!mesh.uv.empty())
         frames_of_cloth(mesh, options, s, report, where, progress);
     else if (options.invented_grain)
-        invent_frames(mesh, *options.invented_grain, s, progress);
+        invent_frames(mesh, *options.invented_grain, std::vector<bool>(mesh.position.size()), s,
+                      progress);
     s.position = std::move(mesh.position);
     s.normal = std::move(mesh.normal);
     s.triangle = std::move(mesh.triangle);

@@ -104,6 +104,8 @@ void find_seams(const Report &r, Findings &f) {
             "boundary vertices lie",
             "at another panel's (largest gap " + number(1e3 * r.seams.largest_gap) + " mm)",
             "joined");
+    f.count(r.seams.layered, Severity::note, "two_layers", "boundary vertex lies",
+            "boundary vertices lie", "on another layer of cloth", "layers not sewn together");
     f.count(r.seams.splits, Severity::note, "t_junctions", "boundary vertex lies",
             "boundary vertices lie", "on another panel's edge", "put into that edge");
     f.count(r.seams.slits, Severity::note, "slits", "gap along a seam is", "gaps along seams are",
@@ -169,6 +171,21 @@ void find_uv(const Report &r, Findings &f) {
 }
 
 } // namespace
+
+double choose_uv_scale(const std::optional<double> &stated, Report &report) {
+    if (stated)
+        return *stated;
+    const double measured =
+        std::sqrt(report.metres_per_uv_weft.p50 * report.metres_per_uv_warp.p50);
+    if (!(measured > 0.0) || !std::isfinite(measured) || (measured >= 0.5 && measured <= 2.0))
+        return 1.0;
+    Findings(report).add(Severity::warning, "uv_scale_measured",
+                         "a unit of UV measures " + number(measured) +
+                             " m of cloth, so UVs are not in metres",
+                         "scaled to metres by this number; state the scale to be sure "
+                         "(--metres-per-uv, metres_per_uv)");
+    return measured;
+}
 
 void MeshRepair::list_findings() {
     Findings findings(report_);

@@ -28,8 +28,8 @@ struct Pair {
 class VertexJoiner {
   public:
     VertexJoiner(const PolygonMesh &mesh, const HalfEdgeMesh &half_edges, double tolerance,
-                 const VertexSet &allowed)
-        : mesh_(mesh), tolerance_(tolerance), cluster_(mesh.position.size()),
+                 const VertexSet &allowed, const LayeredParts &layers)
+        : mesh_(mesh), layers_(layers), tolerance_(tolerance), cluster_(mesh.position.size()),
           members_(mesh.position.size()), faces_(mesh.position.size()) {
         for (const auto v : half_edges.vertices())
             if (half_edges.is_boundary(v) && allowed.has(static_cast<std::uint32_t>(v.idx())))
@@ -88,7 +88,8 @@ class VertexJoiner {
             own.clear();
             for (std::size_t n = 0; it != near.end() && n < kMostScanned; ++it, ++n) {
                 const double d = glm::distance(mesh_.position[a], mesh_.position[*it]);
-                if (d <= std::min(reach_[a], reach_[*it]) && (own.empty() || own.back().b != *it))
+                if (d <= std::min(reach_[a], reach_[*it]) && !layers_.has(a, *it) &&
+                    (own.empty() || own.back().b != *it))
                     own.push_back({d, a, *it});
             }
             if (own.size() > kMostTried) {
@@ -125,6 +126,7 @@ class VertexJoiner {
     }
 
     const PolygonMesh &mesh_;
+    const LayeredParts &layers_;
     double tolerance_, widest_reach_ = 0.0, largest_gap_ = 0.0;
     std::size_t joined_ = 0;
     DisjointSets cluster_;
@@ -136,7 +138,7 @@ class VertexJoiner {
 } // namespace
 
 void MeshRepair::join_vertices(double tolerance, const VertexSet &allowed) {
-    VertexJoiner joiner(mesh_, half_edges(), tolerance, allowed);
+    VertexJoiner joiner(mesh_, half_edges(), tolerance, allowed, layers_);
     joiner.join(progress_);
     if (joiner.joined() == 0)
         return;

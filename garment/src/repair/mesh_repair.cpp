@@ -29,6 +29,7 @@ Prepared MeshRepair::run() {
     begin_stage(progress_, "garment: measure");
     measure_joined();
     measure_uv();
+    cut_folded_islands();
     list_findings();
     return {std::move(mesh_), std::move(report_), std::move(recipe_)};
 }
@@ -102,8 +103,11 @@ Prepared make_manifold(PolygonMesh mesh) {
     return MeshRepair(std::move(mesh), {}, true, {}, {}).run_make_manifold();
 }
 
-Report check(PolygonMesh metres, const SeamOptions &options, const Progress &progress) {
-    return prepare(std::move(metres), options, progress).report;
+Report check(PolygonMesh metres, const SeamOptions &options, const Progress &progress,
+             const std::optional<double> &metres_per_uv) {
+    Report report = prepare(std::move(metres), options, progress).report;
+    report.metres_per_uv = choose_uv_scale(metres_per_uv, report);
+    return report;
 }
 
 } // namespace tsuya::garment

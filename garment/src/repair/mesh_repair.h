@@ -10,6 +10,7 @@
 #include "mesh/edges.h"
 #include "repair/half_edges.h"
 #include "repair/insertion.h"
+#include "repair/layers.h"
 #include "repair/vertex_set.h"
 #include "tsuya/garment/check.h"
 #include "tsuya/sdk/progress.h"
@@ -62,6 +63,8 @@ class MeshRepair {
     // The garment: panels joined along their seams (seams.cpp, join_vertices.cpp, sewing.cpp,
     // open_edges.cpp, slits.cpp).
     void join_seams();
+    /// Finds parts that lie on each other as layers, which are not sewn together.
+    void find_layers(double tolerance);
     /// Joins what lies within the tolerance.
     void sew(double tolerance, const VertexSet &allowed);
     /// Joins boundary vertices that lie within the tolerance, the nearest pairs first, at their
@@ -84,6 +87,10 @@ class MeshRepair {
     /// their triangles are left without area. Returns the number of edges.
     std::size_t collapse_short_edges(double tolerance, const VertexSet &allowed);
     std::size_t count_open_vertices();
+
+    /// Where a UV island folds over itself, its mirrored faces become islands of their own: across
+    /// the fold the surface's derivatives would be those of neither side (mirrored_uv.cpp).
+    void cut_folded_islands();
 
     // The result (measure.cpp, findings.cpp).
     void measure_joined();
@@ -111,8 +118,12 @@ class MeshRepair {
     bool joining_ = false; ///< findings about the topology belong to the joined mesh
     bool settled_ = false; ///< make_manifold would find nothing to do
     Sewing sewing_{};
+    LayeredParts layers_{};
     std::optional<EdgeTable> edges_{};
     std::optional<HalfEdgeMesh> half_edges_{};
 };
+
+/// The scale of UVs that applies, metres a unit; where it had to be measured, with a finding.
+double choose_uv_scale(const std::optional<double> &stated, Report &report);
 
 } // namespace tsuya::garment

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
 
+#include "mesh/disjoint_sets.h"
+#include "mesh/distance.h"
 #include "mesh/place_grid.h"
 #include "mesh/stop.h"
 #include "repair/mesh_repair.h"
+#include "repair/rims.h"
 
 namespace tsuya::garment {
 namespace {
@@ -41,9 +45,10 @@ std::vector<std::uint32_t> ends_of(const std::vector<EdgeUse> &edges) {
 /// Open edges by place.
 class OpenEdges {
   public:
-    OpenEdges(const PolygonMesh &mesh, std::vector<EdgeUse> edges, double tolerance)
-        : mesh_(mesh), tolerance_(tolerance), edges_(std::move(edges)), cell_(cell_size()),
-          grid_(bounds(mesh).lower, cell_) {
+    OpenEdges(const PolygonMesh &mesh, std::vector<EdgeUse> edges, double tolerance,
+              const LayeredParts &layers)
+        : mesh_(mesh), layers_(layers), tolerance_(tolerance), edges_(std::move(edges)),
+          cell_(cell_size()), grid_(bounds(mesh).lower, cell_) {
         for (std::uint32_t i = 0; i < edges_.size(); ++i) {
             // In pieces of a cell's size: the box of a long edge would hold very many cells.
             const glm::dvec3 a = mesh.position[edges_[i].low], b = mesh.position[edges_[i].high];
@@ -63,7 +68,7 @@ class OpenEdges {
         const glm::dvec3 p = mesh_.position[v];
         for (const std::uint32_t i : grid_.at(p)) {
             const EdgeUse &e = edges_[i];
-            if (face_has(e.face, v))
+            if (face_has(e.face, v) || layers_.has(v, e.low))
                 continue;
             const glm::dvec3 a = mesh_.position[mesh_.corner_position[e.corner]];
             const glm::dvec3 b =
@@ -82,6 +87,28 @@ class OpenEdges {
         return best;
     }
 
+    /// Votes of a vertex for each part whose rim it lies on, but its own face's.
+    void vote(std::uint32_t v, const std::vector<RimEdge> &rims,
+              const std::vector<std::uint32_t> &part, LayerVotes &votes) const {
+        const glm::dvec3 p = mesh_.position[v];
+        for (const std::uint32_t i : grid_.at(p)) {
+            const EdgeUse &e = edges_[i];
+            const glm::dvec3 a = mesh_.position[mesh_.corner_position[e.corner]];
+            const glm::dvec3 b =
+                mesh_.position[mesh_.corner_position[mesh_.next(e.face, e.corner)]];
+            if (e.low == v || e.high == v || face_has(e.face, v) ||
+                segment_distance(p, a, b) > tolerance_)
+                continue;
+            // As it is seen from the vertex: from an end, or from between
+            std::vector<RimEdge> seen;
+            if (glm::distance(p, b) > tolerance_)
+                seen.push_back(rim_edge(mesh_, e.face, e.corner, true));
+            if (glm::distance(p, a) > tolerance_)
+                seen.push_back(rim_edge(mesh_, e.face, e.corner, false));
+            votes.add(part[v], part[e.low], contact_of(rims, seen, tolerance_));
+        }
+    }
+
   private:
     double cell_size() const {
         double sum = 0.0;
@@ -97,6 +124,7 @@ class OpenEdges {
     }
 
     const PolygonMesh &mesh_;
+    const LayeredParts &layers_;
     double tolerance_;
     std::vector<EdgeUse> edges_;
     double cell_;
@@ -105,10 +133,38 @@ class OpenEdges {
 
 } // namespace
 
+void MeshRepair::find_layers(double tolerance) {
+    DisjointSets sets(mesh_.position.size());
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f)
+        for (std::uint32_t c = mesh_.face_offset[f]; c < mesh_.face_offset[f + 1]; ++c)
+            sets.unite(mesh_.corner_position[mesh_.face_offset[f]], mesh_.corner_position[c]);
+    std::vector<std::uint32_t> part(mesh_.position.size());
+    for (std::uint32_t v = 0; v < part.size(); ++v)
+        part[v] = sets.find(v);
+    const OpenEdges open(mesh_, open_edges(edges(), {}), tolerance, layers_);
+    std::unordered_map<std::uint32_t, std::vector<RimEdge>> rims; // of the ends of open edges
+    for (const EdgeUse &e : open.edges()) {
+        rims[e.forward ? e.low : e.high].push_back(rim_edge(mesh_, e.face, e.corner, true));
+        rims[e.forward ? e.high : e.low].push_back(rim_edge(mesh_, e.face, e.corner, false));
+    }
+    LayerVotes votes;
+    std::size_t turn = 0;
+    for (const std::uint32_t v : ends_of(open.edges())) {
+        look_at_stop(progress_, turn++);
+        open.vote(v, rims[v], part, votes);
+    }
+    layers_ = votes.layered(std::move(part));
+    for (const std::uint32_t v : ends_of(open.edges()))
+        if (layers_.has_any(v)) {
+            ++report_.seams.layered;
+            keep_place(report_.seams.first_place, "two_layers", mesh_.position[v]);
+        }
+}
+
 std::size_t MeshRepair::count_open_vertices() { return ends_of(open_edges(edges(), {})).size(); }
 
 std::vector<Insertion> MeshRepair::find_insertions(double tolerance, const VertexSet &allowed) {
-    const OpenEdges open(mesh_, open_edges(edges(), allowed), tolerance);
+    const OpenEdges open(mesh_, open_edges(edges(), allowed), tolerance, layers_);
     std::vector<Insertion> insertions;
     std::size_t turn = 0;
     for (const std::uint32_t v : ends_of(open.edges())) {

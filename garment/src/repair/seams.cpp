@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "repair/mesh_repair.h"
 
@@ -10,18 +11,33 @@ constexpr int kMaxRounds = 8;
 /// Passes over slits; closing one can leave a shorter one.
 constexpr int kMaxSlitPasses = 3;
 
+constexpr double kTolerance = 0.5e-3; // metres
+constexpr double kLeastSize = 0.03, kLargestSize = 30.0;
+
+/// By what lengths on a garment of this size are larger than on one that people wear: a power of
+/// ten, 1 for what may be worn.
+double scale_of(double size) {
+    if (!(size > 0.0) || (size >= kLeastSize && size <= kLargestSize))
+        return 1.0;
+    return std::pow(10.0, std::round(std::log10(size)));
+}
+
 } // namespace
 
 void MeshRepair::join_seams() {
     SeamReport &report = report_.seams;
-    report.tolerance = options_.tolerance;
+    const glm::dvec3 size = report_.upper - report_.lower;
+    const double scale = options_.tolerance ? 1.0 : scale_of(std::max({size.x, size.y, size.z}));
+    options_.slit_width *= scale;
+    report.tolerance = options_.tolerance.value_or(scale * kTolerance);
     report.boundary_before = count_open_vertices();
-    if (options_.tolerance >= 0.0) {
+    if (report.tolerance >= 0.0) {
         // Positions that are equal but for rounding are equal even where the tolerance is 0.
         constexpr double kRounding = 1e-12;
         const Box box = bounds(mesh_);
         const double tolerance =
-            std::max(options_.tolerance, kRounding * glm::distance(box.lower, box.upper));
+            std::max(report.tolerance, kRounding * glm::distance(box.lower, box.upper));
+        find_layers(tolerance);
         sew(tolerance, {});
         make_manifold();
         const std::size_t in_slits =

@@ -7,7 +7,8 @@ namespace tsuya::garment {
 namespace {
 
 /// True for a loop as narrow as `width`: all of its vertices but the two tips lie that near to an
-/// edge of the loop that they do not touch.
+/// edge of the other side, which runs against the loop there. Edges that run on with it, as in a
+/// hem of fine edges, say nothing.
 bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
     constexpr std::size_t kTips = 2, kMostEdges = 4096; // the time grows with the square
     const std::size_t n = loop.size();
@@ -16,8 +17,11 @@ bool is_slit(const std::vector<glm::dvec3> &loop, double width) {
     std::size_t wide = 0;
     for (std::size_t i = 0; i < n && wide <= kTips; ++i) {
         bool near = false;
-        for (std::size_t k = 1; k + 1 < n && !near; ++k)
-            near = segment_distance(loop[i], loop[(i + k) % n], loop[(i + k + 1) % n]) <= width;
+        const glm::dvec3 run = loop[(i + 1) % n] - loop[(i + n - 1) % n];
+        for (std::size_t k = 1; k + 1 < n && !near; ++k) {
+            const glm::dvec3 &from = loop[(i + k) % n], &to = loop[(i + k + 1) % n];
+            near = segment_distance(loop[i], from, to) <= width && glm::dot(run, to - from) < 0.0;
+        }
         wide += !near;
     }
     return wide <= kTips && wide < n;

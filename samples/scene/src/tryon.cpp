@@ -213,6 +213,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
                                         .max_degenerate_area = job.max_degenerate_area}};
     garment::Options body_options = options;
     body_options.want_frames = false;
+    options.metres_per_uv = job.metres_per_uv;
     options.strict = job.strict;
     options.want_frames = cloths.need_frames() || !job.pattern.empty();
 

@@ -2,6 +2,8 @@
 /// \file
 /// What is wrong with a garment mesh, and what loading it would do about it.
 
+#include <optional>
+
 #include "tsuya/garment/polygon_mesh.h"
 #include "tsuya/garment/position_recipe.h"
 #include "tsuya/garment/report.h"
@@ -13,7 +15,9 @@ namespace tsuya::garment {
 /// Examines a mesh and dry-runs the repairs that `load` does. Never throws for a bad shape, only
 /// for bad indices (see check_indices), and Interrupted where `progress` says stop.
 /// \param metres mesh with positions in metres
-Report check(PolygonMesh metres, const SeamOptions &options = {}, const Progress &progress = {});
+/// \param metres_per_uv see Options::metres_per_uv
+Report check(PolygonMesh metres, const SeamOptions &options = {}, const Progress &progress = {},
+             const std::optional<double> &metres_per_uv = {});
 
 /// A mesh that is ready to be subdivided, and what was done to it.
 struct Prepared {

@@ -20,7 +20,9 @@ struct FrameOptions {
     double default_grain = 0; ///< radians; for panels that `grain` does not name
     /// Where a mesh has no UV: nullopt makes a body without yarn directions; a number lays the warp
     /// along the upward vertical (+y) in the tangent plane, turned by this many radians
-    /// counter-clockwise about the normal (0: vertical, pi/2: horizontal).
+    /// counter-clockwise about the normal (0: vertical, pi/2: horizontal). Where a mesh has UVs,
+    /// the same for the vertices whose UV is degenerate, in place of what spreads from their
+    /// neighbours.
     std::optional<double> invented_grain{};
     /// Names of panels whose fabric has no yarn directions: nothing is asked of their UVs.
     std::set<std::string> plain{};

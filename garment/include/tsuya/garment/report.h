@@ -67,6 +67,7 @@ struct SeamReport {
     std::size_t splits = 0;          ///< vertices put into a neighbour's edge (T-junctions)
     std::size_t slits = 0;           ///< narrow gaps that were closed beyond the tolerance
     std::size_t collapsed_edges = 0; ///< shorter than the tolerance, that held a slit open
+    std::size_t layered = 0;         ///< boundary vertices left on another layer of cloth
     double largest_gap = 0;          ///< metres; largest distance that was closed
     FirstPlaces first_place{};
     std::size_t unresolved = 0; ///< boundary vertices left that lie on another boundary edge or

@@ -2,6 +2,8 @@
 /// \file
 /// Seams: panels that lie edge to edge are joined, while their UVs stay apart.
 
+#include <optional>
+
 namespace tsuya::garment {
 
 /// How near boundary vertices must be to be joined. Boundary vertices within the tolerance of each
@@ -12,7 +14,10 @@ namespace tsuya::garment {
 /// hold a slit open; else a vertex moves by less than half of its shortest edge. Where joining lays
 /// more than two layers onto each other (a pleat), they are joined in pairs.
 struct SeamOptions {
-    double tolerance = 0.5e-3; ///< metres, 0 to join only equal positions; negative: do not join
+    /// Metres, 0 to join only equal positions; negative: do not join. Empty: 0.5 mm, and on a mesh
+    /// smaller than 3 cm or larger than 30 m, which is not in the unit that was stated, the power
+    /// of ten of that which fits its size; so is the width of slits then.
+    std::optional<double> tolerance{};
     /// Metres. Gaps that remain and are nowhere wider than this, such as where a sewn edge hangs
     /// off its neighbour between two points, are closed as well; 0: leave them.
     double slit_width = 2e-3;

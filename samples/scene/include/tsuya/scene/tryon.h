@@ -54,6 +54,7 @@ struct TryOn {
     std::optional<double> tolerance_px{};   ///< pixels; in place of `level`, see ViewTolerance
     std::optional<double> invented_grain{}; ///< of a garment without UV, see FrameOptions
     garment::SeamOptions seams{};           ///< of garment and body
+    std::optional<double> metres_per_uv{};  ///< of the garment, see garment::Options
     double max_degenerate_area = 0.05;      ///< of the garment, see FrameOptions
     bool strict = false;                    ///< a warning about the garment is an Error
     std::string unit = "m";                 ///< of garment and body, see garment::metres_per
