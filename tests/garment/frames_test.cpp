@@ -4,8 +4,8 @@
 
 #include "test_meshes.h"
 #include "tsuya/garment/frames.h"
-#include "tsuya/sdk/angle.h"
 #include "tsuya/garment/garment.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/frame.h"
 
@@ -199,6 +199,49 @@ TEST(Frames, AStatedGrainFillsBadPartsAlone) {
     }
     EXPECT_GT(filled, 0u);
     EXPECT_GT(kept, 0u);
+}
+
+/// A flat plate of triangles of all shapes, UV in metres.
+PolygonMesh irregular_plate() {
+    constexpr int kSide = 9;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> jitter(-0.03, 0.03);
+    PolygonMesh mesh;
+    for (int j = 0; j <= kSide; ++j)
+        for (int i = 0; i <= kSide; ++i) {
+            const double x = 0.1 * i + (i > 0 && i < kSide ? jitter(random) : 0.0);
+            const double y = 0.1 * j + (j > 0 && j < kSide ? jitter(random) : 0.0);
+            mesh.position.emplace_back(x, y, 0.0);
+            mesh.uv.emplace_back(x, y);
+        }
+    for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) {
+            const auto a = static_cast<std::uint32_t>(j * (kSide + 1) + i), b = a + 1,
+                       c = a + kSide + 1, d = c + 1;
+            const bool turned = random() % 2 == 0;
+            using Triangles = std::array<std::array<std::uint32_t, 3>, 2>;
+            for (const auto &[p, q, r] :
+                 turned ? Triangles{{{a, b, c}, {b, d, c}}} : Triangles{{{a, b, d}, {a, d, c}}})
+                mesh.add_face({p, q, r},
+                              {static_cast<std::int32_t>(p), static_cast<std::int32_t>(q),
+                               static_cast<std::int32_t>(r)},
+                              0);
+        }
+    return mesh;
+}
+
+// Positions and UVs follow the same rules at a hem, so that one stays a linear map of the other.
+TEST(Frames, AFlatPlateOfIrregularTrianglesHasOneDirectionUpToItsHem) {
+    for (const int level : {0, 1, 3}) {
+        const Surface surface =
+            load(irregular_plate(), {.subdivide = {.level = level}}, "t").surface;
+        float worst = 0;
+        for (std::size_t v = 0; v < surface.warp.size(); ++v)
+            worst = std::max({worst, glm::distance(surface.warp[v], glm::vec3(0, 1, 0)),
+                              glm::distance(surface.weft[v], glm::vec3(1, 0, 0)),
+                              glm::distance(surface.normal[v], glm::vec3(0, 0, 1))});
+        EXPECT_LT(worst, 1e-4f) << level;
+    }
 }
 
 } // namespace
