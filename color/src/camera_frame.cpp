@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "channels.h"
-#include "frame_input.h"
+#include "pictures.h"
 #include "tiff_bytes.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -50,16 +50,16 @@ double ResponseCurve::linear_dn(double encoded_dn) const {
 }
 
 CameraFrame read_frame_header(const std::filesystem::path &path) {
-    return FrameInput(path).description();
+    return pictures().open_frame(path)->description();
 }
 
 CameraFrame read_frame(const std::filesystem::path &path, const FrameSettings &settings) {
-    FrameInput input(path);
-    if (!settings.response && !input.not_linear().empty())
-        throw Error({"the picture is no measurement: " + input.not_linear(), path.string(),
+    const std::unique_ptr<FrameFile> input = pictures().open_frame(path);
+    if (!settings.response && !input->not_linear().empty())
+        throw Error({"the picture is no measurement: " + input->not_linear(), path.string(),
                      "expected RAW, or a linear picture of 16 bits, or a camera with a measured "
                      "response curve"});
-    CameraFrame frame = input.description();
+    CameraFrame frame = input->description();
     frame.area = settings.area.value_or(PixelArea{0, 0, frame.width, frame.height});
     const PixelArea &area = frame.area;
     if (area.width < 1 || area.height < 1 || area.x < 0 || area.y < 0 ||
@@ -67,7 +67,7 @@ CameraFrame read_frame(const std::filesystem::path &path, const FrameSettings &s
         throw Error({"the picture has no " + text_of(area), path.string(),
                      "expected an area within its " + std::to_string(frame.width) + " x " +
                          std::to_string(frame.height) + " pixels"});
-    frame.image = input.read(area);
+    frame.image = input->read(area);
     frame.cfa = moved(frame.cfa, area.x, area.y);
     if (settings.response)
         linearise(frame.image, *settings.response);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "channels.h"
-#include "oiio_file.h"
+#include "pictures.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
@@ -44,15 +44,15 @@ void check_display_image(const Image &image, const std::string &where) {
 void write_png(const std::filesystem::path &path, const Image &image, int bits) {
     check_display_image(image, path.string());
     if (bits == 8)
-        write_png_samples(path, image, bits, quantize<std::uint8_t>(image).data());
+        pictures().write_png(path, image, bits, quantize<std::uint8_t>(image).data());
     else if (bits == 16)
-        write_png_samples(path, image, bits, quantize<std::uint16_t>(image).data());
+        pictures().write_png(path, image, bits, quantize<std::uint16_t>(image).data());
     else
         throw Error({"a PNG has no samples of " + std::to_string(bits) + " bits", path.string(),
                      "expected 8 or 16"});
 }
 
-Image read_image(const std::filesystem::path &path) { return read_picture(path).image; }
+Image read_image(const std::filesystem::path &path) { return pictures().read(path).image; }
 
 void write_exr(const std::filesystem::path &path, const Image &image, const ExrOptions &options) {
     check_image(image, path.string());
@@ -64,7 +64,7 @@ void write_exr(const std::filesystem::path &path, const Image &image, const ExrO
         picture.attributes["tsuya:meta:" + key] = value;
     const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
     picture.fill_row = [&](int y, float *out) { std::copy_n(image.pixel(0, y), row, out); };
-    write_exr_picture(path, picture);
+    pictures().write_exr(path, picture);
 }
 
 } // namespace tsuya

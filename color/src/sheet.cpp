@@ -5,10 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include "channels.h"
+#include "pictures.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
@@ -74,11 +72,7 @@ fs::path find_font() {
 std::array<int, 2> text_size(const std::string &text, int size, const std::string &font) {
     if (text.empty())
         return {0, 0};
-    const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, size, font);
-    if (!roi.defined())
-        throw Error({"the font " + font + " cannot be used", "sheet.font",
-                     "expected a readable TrueType file"});
-    return {roi.width(), roi.height()};
+    return pictures().text_size(text, size, font);
 }
 
 /// The largest size up to `size` at which the text fits into `width` pixels.
@@ -142,9 +136,7 @@ Layout make_layout(const Sheet &sheet, const std::string &font) {
 class Pen {
   public:
     Pen(Image &sheet, std::string font, float text)
-        : buffer_(OIIO::ImageSpec(sheet.width, sheet.height, 3, OIIO::TypeDesc::FLOAT),
-                  sheet.data.data()),
-          font_(std::move(font)), color_{text, text, text} {}
+        : sheet_(sheet), font_(std::move(font)), color_{text, text, text} {}
 
     enum class Align { left, centre };
 
@@ -153,20 +145,21 @@ class Pen {
                Align align) {
         if (text.empty())
             return;
-        using namespace OIIO::ImageBufAlgo;
         const bool centred = align == Align::centre;
         // The baseline: capitals are about 0.72 of the size high, so they stand in the middle.
         const int fitted = fitting_size(text, size, width, font_);
         const int baseline = y + (height + static_cast<int>(0.72 * fitted)) / 2;
-        if (!render_text(buffer_, centred ? x + width / 2 : x, baseline, text, fitted, font_,
-                         color_, centred ? TextAlignX::Center : TextAlignX::Left,
-                         TextAlignY::Baseline))
-            throw Error({"cannot write a text: " + buffer_.geterror(), "sheet.font",
-                         "expected a readable TrueType file"});
+        pictures().write_text(sheet_, text,
+                              {.x = centred ? x + width / 2 : x,
+                               .baseline = baseline,
+                               .centred = centred,
+                               .size = fitted,
+                               .colour = color_},
+                              font_);
     }
 
   private:
-    OIIO::ImageBuf buffer_;
+    Image &sheet_;
     std::string font_;
     std::array<float, 3> color_;
 };

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "channels.h"
-#include "oiio_file.h"
+#include "pictures.h"
 #include "rows.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/sdk/detail/counted.h"
@@ -190,11 +190,11 @@ void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &
                 out = std::copy_n(aov.pixel(x, y), aov.channels.size(), out);
         }
     };
-    write_exr_picture(path, picture);
+    pictures().write_exr(path, picture);
 }
 
 SpectralImage read_spectral_exr(const std::filesystem::path &path) {
-    const InputPicture picture = read_picture(path);
+    const InputPicture picture = pictures().read(path);
     SpectralImage image = parse_header(picture, path.string());
     const ChannelFinder finder(picture.image, path.string());
     std::vector<std::vector<std::size_t>> from_group, from_aov;

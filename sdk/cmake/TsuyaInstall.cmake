@@ -23,7 +23,6 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/tsuyaConfigVersion.cmake
 install(FILES "${PROJECT_BINARY_DIR}/tsuyaConfig.cmake"
               "${PROJECT_BINARY_DIR}/tsuyaConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/FindOpenSubdiv.cmake"
-              "${CMAKE_CURRENT_LIST_DIR}/FindOpenImageIO.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/FindOpenColorIO.cmake"
         DESTINATION ${package_dir} COMPONENT package)
 
@@ -31,7 +30,6 @@ install(FILES "${PROJECT_BINARY_DIR}/tsuyaConfig.cmake"
 set(pc_of_TBB::tbb -ltbb)
 set(pc_of_embree -lembree3)
 set(pc_of_OpenColorIO::OpenColorIO -lOpenColorIO)
-set(pc_of_OpenImageIO::OpenImageIO -lOpenImageIO -lOpenImageIO_Util -lImath-3_1)
 set(pc_of_OpenMeshCore -lOpenMeshCore)
 set(pc_of_OpenSubdiv::osdCPU -losdCPU)
 set(pc_of_PkgConfig::gpiodcxx -lgpiodcxx)
@@ -46,6 +44,9 @@ foreach(component IN LISTS components)
     get_target_property(type tsuya_${component} TYPE)
     if(NOT type STREQUAL INTERFACE_LIBRARY)
         set(pc_libs "-L\${libdir}" -ltsuya_${component})
+    endif()
+    if(component STREQUAL color) # loads its module of pictures
+        list(APPEND pc_libs -Wl,-rpath,\${libdir}/tsuya)
     endif()
     get_target_property(linked tsuya_${component} INTERFACE_LINK_LIBRARIES)
     list(TRANSFORM linked REPLACE "^.<LINK_ONLY:(.*)>$" "\\1")

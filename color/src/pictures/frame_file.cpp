@@ -1,10 +1,9 @@
-#include "frame_input.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "oiio_input.h"
+#include "pictures/oiio_input.h"
+#include "pictures/picture_files.h"
 
 namespace tsuya {
 namespace {
@@ -53,23 +52,24 @@ bool profile_names_srgb(const OIIO::ImageSpec &spec) {
     return letters.find("sRGB") != std::string::npos;
 }
 
-} // namespace
+class OiioFrame final : public FrameFile {
+  public:
+    explicit OiioFrame(const std::filesystem::path &path) : path_(path) {
+        const OIIO::ImageSpec config = raw_numbers();
+        file_ = open_picture(path_, &config);
+    }
+    std::string not_linear() const override;
+    CameraFrame description() const override;
+    Image read(const PixelArea &area) override;
 
-struct FrameInput::State {
-    std::unique_ptr<OIIO::ImageInput> file;
+  private:
+    std::filesystem::path path_;
+    std::unique_ptr<OIIO::ImageInput> file_{};
 };
 
-FrameInput::FrameInput(std::filesystem::path path)
-    : path_(std::move(path)), state_(std::make_unique<State>()) {
-    const OIIO::ImageSpec config = raw_numbers();
-    state_->file = open_picture(path_, &config);
-}
-
-FrameInput::~FrameInput() = default;
-
-std::string FrameInput::not_linear() const {
-    const OIIO::ImageSpec &spec = state_->file->spec();
-    const std::string format = state_->file->format_name();
+std::string OiioFrame::not_linear() const {
+    const OIIO::ImageSpec &spec = file_->spec();
+    const std::string format = file_->format_name();
     if (spec.format.basetype == OIIO::TypeDesc::UINT8)
         return "it has 8 bits, which are encoded";
     if (format == "png")
@@ -84,8 +84,8 @@ std::string FrameInput::not_linear() const {
     return "";
 }
 
-CameraFrame FrameInput::description() const {
-    const OIIO::ImageSpec &spec = state_->file->spec();
+CameraFrame OiioFrame::description() const {
+    const OIIO::ImageSpec &spec = file_->spec();
     CameraFrame frame{.width = spec.width, .height = spec.height};
     frame.cfa = filters_of(spec);
     frame.exposure_s = number(spec, "ExposureTime");
@@ -99,14 +99,14 @@ CameraFrame FrameInput::description() const {
     return frame;
 }
 
-Image FrameInput::read(const PixelArea &area) {
-    const OIIO::ImageSpec &spec = state_->file->spec();
+Image OiioFrame::read(const PixelArea &area) {
+    const OIIO::ImageSpec &spec = file_->spec();
     const auto channels = static_cast<std::size_t>(spec.nchannels);
     const std::size_t row = static_cast<std::size_t>(spec.width) * channels;
     std::vector<float> rows(row * static_cast<std::size_t>(area.height));
-    if (!state_->file->read_scanlines(0, 0, area.y, area.y + area.height, 0, 0, spec.nchannels,
-                                      OIIO::TypeDesc::FLOAT, rows.data()))
-        fail_reading(path_, state_->file->geterror());
+    if (!file_->read_scanlines(0, 0, area.y, area.y + area.height, 0, 0, spec.nchannels,
+                               OIIO::TypeDesc::FLOAT, rows.data()))
+        fail_reading(path_, file_->geterror());
     const float largest = largest_number(spec.format);
     Image image = Image::make(area.width, area.height, spec.channelnames);
     for (std::size_t y = 0; y < static_cast<std::size_t>(area.height); ++y) {
@@ -117,6 +117,12 @@ Image FrameInput::read(const PixelArea &area) {
                        });
     }
     return image;
+}
+
+} // namespace
+
+std::unique_ptr<FrameFile> open_frame_file(const std::filesystem::path &path) {
+    return std::make_unique<OiioFrame>(path);
 }
 
 } // namespace tsuya

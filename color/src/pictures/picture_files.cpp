@@ -1,4 +1,4 @@
-#include "oiio_file.h"
+#include "pictures/picture_files.h"
 
 #include <algorithm>
 #include <memory>
@@ -7,7 +7,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "oiio_input.h"
+#include "pictures/oiio_input.h"
 #include "rows.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"

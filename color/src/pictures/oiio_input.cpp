@@ -1,4 +1,4 @@
-#include "oiio_input.h"
+#include "pictures/oiio_input.h"
 
 #include <algorithm>
 

@@ -1,0 +1,88 @@
+#pragma once
+/// \file
+/// Picture files through OpenImageIO. It stands on 260 shared libraries, which take a fifth of a
+/// second to load: so they are behind a module that is loaded when the first picture is touched.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tsuya/color/camera_frame.h"
+#include "tsuya/color/image_file.h"
+
+namespace tsuya {
+
+/// A picture to write, row by row.
+struct OutputPicture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> channels{};
+    SampleType samples = SampleType::float32;
+    std::map<std::string, std::string> attributes{};
+    /// Fills one row: width x channels floats, interleaved.
+    std::function<void(int y, float *row)> fill_row{};
+};
+
+/// A picture as it was read, with its string attributes.
+struct InputPicture {
+    std::string format{}; ///< OpenImageIO's name of the file format, e.g. openexr
+    Image image{};
+    std::map<std::string, std::string> attributes{};
+};
+
+/// A picture of 8 bits a sample; floats are encoded as sRGB. Alpha is not multiplied into colours.
+struct EncodedPicture {
+    int width = 0, height = 0, channels = 0;
+    int alpha = -1; ///< its channel; -1: none
+    std::vector<std::uint8_t> data{};
+};
+
+/// A camera's picture that is open.
+class FrameFile {
+  public:
+    virtual ~FrameFile() = default;
+    /// Why the numbers are not in proportion to light; empty where they are.
+    virtual std::string not_linear() const = 0;
+    /// All but image and area; `cfa` from the picture's corner.
+    virtual CameraFrame description() const = 0;
+    /// The numbers of an area within the picture: whole ones as they are stored. Throws Error.
+    virtual Image read(const PixelArea &area) = 0;
+};
+
+/// How a line of text stands.
+struct TextPlace {
+    int x = 0, baseline = 0; ///< pixels
+    bool centred = false;    ///< about x; else it begins there
+    int size = 0;            ///< of the letters, pixels
+    std::array<float, 3> colour{};
+};
+
+/// What the module does. All throw Error at the path.
+class Pictures {
+  public:
+    virtual ~Pictures() = default;
+    virtual void write_exr(const std::filesystem::path &path,
+                           const OutputPicture &picture) const = 0;
+    /// Values are rows of width x channels samples of `bits` bits.
+    virtual void write_png(const std::filesystem::path &path, const Image &shape, int bits,
+                           const void *samples) const = 0;
+    virtual InputPicture read(const std::filesystem::path &path) const = 0;
+    virtual EncodedPicture read_encoded(const std::filesystem::path &path) const = 0;
+    virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
+    /// Width and height of a text in pixels. Throws Error at `sheet.font`.
+    virtual std::array<int, 2> text_size(const std::string &text, int size,
+                                         const std::string &font) const = 0;
+    /// Writes a text into an RGB picture. Throws Error at `sheet.font`.
+    virtual void write_text(Image &image, const std::string &text, const TextPlace &place,
+                            const std::string &font) const = 0;
+};
+
+/// Loads the module at the first call. Throws Error where it cannot be loaded.
+const Pictures &pictures();
+
+} // namespace tsuya
