@@ -1,11 +1,11 @@
 #include "tsuya/color/srgb.h"
 
-#include <cmath>
 #include <string>
 
 #include <glm/matrix.hpp>
 
 #include "tsuya/color/observer.h"
+#include "tsuya/sdk/detail/srgb_curve.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -36,17 +36,9 @@ glm::dmat3 xyz_from_srgb() {
 
 glm::dmat3 srgb_from_xyz() { return glm::inverse(xyz_from_srgb()); }
 
-double srgb_encode(double linear) {
-    const double size = std::abs(linear);
-    const double code = size <= 0.0031308 ? 12.92 * size : 1.055 * std::pow(size, 1 / 2.4) - 0.055;
-    return std::copysign(code, linear);
-}
+double srgb_encode(double linear) { return detail::srgb_code(linear); }
 
-double srgb_decode(double encoded) {
-    const double size = std::abs(encoded);
-    const double light = size <= 0.04045 ? size / 12.92 : std::pow((size + 0.055) / 1.055, 2.4);
-    return std::copysign(light, encoded);
-}
+double srgb_decode(double encoded) { return detail::srgb_light(encoded); }
 
 glm::dvec3 parse_srgb(std::string_view text, std::string_view where) {
     const bool brief = text.size() == 4;

@@ -5,7 +5,7 @@
 
 #include "pictures/oiio_input.h"
 #include "pictures/picture_files.h"
-#include "tsuya/color/srgb.h"
+#include "tsuya/sdk/detail/srgb_curve.h"
 
 namespace tsuya {
 
@@ -35,7 +35,7 @@ EncodedPicture read_encoded_picture(const std::filesystem::path &path) {
             static_cast<int>(i % static_cast<std::size_t>(spec.nchannels)) == spec.alpha_channel;
         const double v = std::clamp(static_cast<double>(linear[i]), 0.0, 1.0);
         picture.data[i] =
-            static_cast<std::uint8_t>(std::lround(255 * (is_alpha ? v : srgb_encode(v))));
+            static_cast<std::uint8_t>(std::lround(255 * (is_alpha ? v : detail::srgb_code(v))));
     }
     return picture;
 }

@@ -4,17 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "tsuya/sdk/detail/srgb_curve.h"
+
 namespace tsuya {
 namespace {
 
-// The transfer curve of sRGB [IEC61966].
-float decoded(double code) {
-    return static_cast<float>(code <= 0.04045 ? code / 12.92
-                                              : std::pow((code + 0.055) / 1.055, 2.4));
-}
 std::uint8_t encoded(float linear) {
-    const double v = static_cast<double>(linear);
-    const double code = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+    const double code = detail::srgb_code(static_cast<double>(linear));
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(code, 0.0, 1.0)));
 }
 
@@ -22,7 +18,7 @@ const std::array<float, 256> &decoding() {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> t{};
         for (std::size_t i = 0; i < t.size(); ++i)
-            t[i] = decoded(static_cast<double>(i) / 255);
+            t[i] = static_cast<float>(detail::srgb_light(static_cast<double>(i) / 255));
         return t;
     }();
     return table;
