@@ -25,6 +25,7 @@ struct TryOn final : Command {
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
+    const Option *dye = nullptr;
 
     void options(Options &o) override {
         add_garment(o);
@@ -95,10 +96,11 @@ struct TryOn final : Command {
                  "width of that picture on the cloth; it is repeated")
             .positive()
             .needs(pattern);
-        o.option("--dye", &job.dyes, "A,B,...",
-                 "dyes, one render each: names of `tsuya list dyes`, #rrggbb, F.csv")
-            .with_commas()
-            .check([this] { scene::check_dyes(job.dyes); });
+        dye = &o.option("--dye", &job.dyes, "A,B,...",
+                        "dyes, one render each: names of `tsuya list dyes`, #rrggbb, F.csv; where "
+                        "none is given, a dyed fabric has its own")
+                   .with_commas()
+                   .check([this] { scene::check_dyes(job.dyes); });
         o.option("--lamps", &job.lamps, "A,B,...",
                  "lamps, one picture each: names of `tsuya list lamps`, or F.csv")
             .with_commas()
@@ -138,6 +140,10 @@ struct TryOn final : Command {
             job.garment = garment;
         }
         take_fabrics();
+        if (!dye->given && !job.pattern.empty())
+            job.dyes = {"white"};
+        else if (!dye->given && read_fabric(job.fabric, console.progress()).colours.any_dye())
+            job.dyes.clear(); // its own
         job.invented_grain = parse_grain(grain);
         job.look = look.look();
         job.render.stop.relative_error = error;

@@ -3,7 +3,7 @@
 # gpio_test.sh lines KERNEL ROOT GPIO_PULSES GPIO_WATCH (LAB_PROGRAM)
 # gpio_test.sh sessions KERNEL ROOT GPIO_SESSION
 # gpio_test.sh reboot KERNEL ROOT GPIO_SESSION
-# gpio_test.sh program KERNEL ROOT TSUYA
+# gpio_test.sh program KERNEL ROOT TSUYA MODULE
 #   KERNEL  the folder that gpio_bed/prepare fills; where it could not, the test is skipped (status 77)
 #   ROOT    of the system that the programs are from; empty for this one
 set -euo pipefail
@@ -82,7 +82,7 @@ program() {
     "$bed" --warp --memory 1400 --chip board:4:0=lamp,1=shutter,2=interlock,3=estop \
         --with "$here/gpio_checks.sh=/gpio_checks.sh" --with "$here/gpio_rig.sh=/gpio_rig.sh" \
         --with "$here/gpio_program_guest.sh=/guest.sh" --with "$scratch/bed.rig.toml=$scratch/bed.rig.toml" \
-        --with "$scratch/plan.jsonl=/plan.jsonl" "${pictures[@]}" --with "$tsuya=/tsuya" \
+        --with "$scratch/plan.jsonl=/plan.jsonl" "${pictures[@]}" --with "$tsuya=/tsuya" --with "$2=$2" \
         "$kernel" sh /guest.sh /tsuya /plan.jsonl
 }
 

@@ -30,6 +30,7 @@ class Clock {
 /// that waits notices sooner that it hangs.
 class Waiting {
   public:
+    /// From now until the end of the block.
     explicit Waiting(Clock &clock) : clock_(clock) { clock_.wait_more(true); }
     ~Waiting() { clock_.wait_more(false); }
     Waiting(const Waiting &) = delete;
