@@ -176,7 +176,7 @@ TEST(WrongCall, ValuesThatAreNoneAreRefusedByTheNameThatWasTyped) {
         {{"--lamps", "D65,,A"}, "--lamps: a value is empty; expected A,B,..."},
         {{"--lamps", "D65,"}, "--lamps: a value is empty; expected A,B,..."},
         {{"--lamps", ""}, "--lamps: a value is empty; expected A,B,..."},
-        {{"--fabric", ""}, "--fabric: a value is empty; expected FABRIC"},
+        {{"--fabric", ""}, "--fabric: a value is empty; expected [PANELS=]FABRIC"},
         {{"--spp", "1e1.5"}, "--spp: '1e1.5' is not a number; expected a whole number from 1"},
         {{"--samples=0"}, "--samples: '0' is out of range"},
         {{"--spp", "2", "--error", "0.1"}, "--spp: it cannot be given with --error"},

@@ -101,7 +101,7 @@ Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,
 
     Sdc::Options sdc;
     sdc.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
-    sdc.SetFVarLinearInterpolation(Sdc::Options::FVAR_LINEAR_CORNERS_ONLY);
+    sdc.SetFVarLinearInterpolation(Sdc::Options::FVAR_LINEAR_CORNERS_PLUS2);
     using RefinerFactory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
     Refiner refiner(RefinerFactory::Create(descriptor, RefinerFactory::Options(scheme, sdc)));
     if (!refiner)
