@@ -2,6 +2,7 @@
 /// \file
 /// A file that is written block by block, by atomic replacement.
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -11,6 +12,13 @@
 #include "tsuya/sdk/file.h"
 
 namespace tsuya::garment {
+
+/// A name in a format whose names end with their line: line ends in it become blanks.
+inline std::string one_line(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return name;
+}
 
 /// Collects bytes and writes them in blocks, with a look at the stop flag at each: a file may be
 /// larger than the memory that is left. Without `commit` nothing stands under the name.

@@ -61,7 +61,7 @@ void write_obj(const std::filesystem::path &path, const Surface &s, const Progre
     for (std::size_t i = 0; i < s.triangle.size(); ++i) {
         const bool named = !s.panel.empty() && s.panel[i] < s.panel_name.size();
         if (named && (i == 0 || s.panel[i] != s.panel[i - 1]))
-            text += "g " + s.panel_name[s.panel[i]] + "\n";
+            text += "g " + one_line(s.panel_name[s.panel[i]]) + "\n";
         append_triangle(text, s, s.triangle[i]);
         out.end_entry();
     }

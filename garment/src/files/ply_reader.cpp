@@ -1,18 +1,12 @@
-// PLY and OFF through OpenMesh. Its readers allocate what the header declares and read on behind
-// the end of a file, so the counts of the header are checked against the file size first, and the
-// end of the text throws.
-
 #include <array>
-#include <charconv>
-#include <mutex>
-#include <sstream>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
-#include <OpenMesh/Core/IO/reader/OFFReader.hh>
-#include <OpenMesh/Core/IO/reader/PLYReader.hh>
-#include <OpenMesh/Core/System/omstream.hh>
-
-#include "files/polygon_importer.h"
+#include "files/declared_count.h"
+#include "files/ply_rows.h"
+#include "mesh/stop.h"
 #include "tsuya/garment/ply.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
@@ -22,178 +16,258 @@
 namespace tsuya::garment {
 namespace {
 
-std::vector<std::string_view> words_of(std::string_view line) {
-    constexpr std::string_view kBlanks = " \t\r";
-    std::vector<std::string_view> words;
-    for (std::size_t at = line.find_first_not_of(kBlanks); at != std::string_view::npos;) {
-        const std::size_t end = std::min(line.find_first_of(kBlanks, at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = line.find_first_not_of(kBlanks, end);
-    }
-    return words;
-}
-
-/// Takes the next line off `text`.
-std::string_view take_line(std::string_view &text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    return line;
-}
-
-std::uint64_t parse_count(std::string_view word, const std::string &where) {
-    std::uint64_t count = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (error != std::errc{} || stop != word.data() + word.size())
-        throw Error({"'" + std::string(word) + "' is no count", where, "expected a number"});
-    return count;
-}
-
-void check_count(std::uint64_t count, std::uint64_t bytes_each, std::uint64_t bytes,
-                 const std::string &where) {
-    if (bytes_each > 0 && count > bytes / bytes_each)
-        throw Error({detail::counted(count, "entry is", "entries are") + " declared and " +
-                         detail::counted(bytes, "byte is", "bytes are") + " left",
-                     where, "expected no more than the file holds"});
-}
-
-std::uint64_t ply_type_bytes(std::string_view type, const std::string &where) {
-    constexpr std::array<std::pair<std::string_view, std::uint64_t>, 16> kTypes{{{"char", 1},
-                                                                                 {"int8", 1},
-                                                                                 {"uchar", 1},
-                                                                                 {"uint8", 1},
-                                                                                 {"short", 2},
-                                                                                 {"int16", 2},
-                                                                                 {"ushort", 2},
-                                                                                 {"uint16", 2},
-                                                                                 {"int", 4},
-                                                                                 {"int32", 4},
-                                                                                 {"uint", 4},
-                                                                                 {"uint32", 4},
-                                                                                 {"float", 4},
-                                                                                 {"float32", 4},
-                                                                                 {"double", 8},
-                                                                                 {"float64", 8}}};
-    for (const auto &[name, bytes] : kTypes)
-        if (name == type)
-            return bytes;
-    throw Error({"'" + std::string(type) + "' is no type of PLY", where, "expected float or int"});
-}
-
-/// Holds the counts of the header against the bytes that follow it.
-void check_ply(std::string_view text, const std::string &name) {
-    struct Element {
-        std::uint64_t count, row_bytes;
-        std::string where;
-    };
-    std::vector<Element> elements;
-    bool ascii = true, ended = false,
-         started = words_of(take_line(text)) == std::vector<std::string_view>{"ply"};
-    for (int line = 2; started && !text.empty() && !ended; ++line) {
-        const std::string where = name + ":" + std::to_string(line);
-        const auto words = words_of(take_line(text));
-        if (words.size() > 1 && words[0] == "format")
-            ascii = words[1] == "ascii";
-        else if (words.size() == 3 && words[0] == "element")
-            elements.push_back({parse_count(words[2], where), 0, where});
-        else if (words.size() >= 3 && words[0] == "property" && !elements.empty())
-            // A number as text takes a digit and a blank; a list at least its length.
-            elements.back().row_bytes +=
-                ascii ? 2 : ply_type_bytes(words[words[1] == "list" ? 2 : 1], where);
-        ended = !words.empty() && words[0] == "end_header";
-    }
-    if (!ended)
-        throw Error({"the header of the PLY file is not whole", name,
-                     "expected ply at the start and end_header at its end"});
-    for (const Element &e : elements)
-        check_count(e.count, std::max<std::uint64_t>(e.row_bytes, 1), text.size() + 1, e.where);
-}
-
-/// Holds the counts of the second line against the bytes that follow it.
-void check_off(std::string_view text, const std::string &name) {
-    std::vector<std::string_view> words;
-    std::string_view first;
-    while (!text.empty() && words.size() < 2) {
-        const std::string_view line = take_line(text);
-        for (const std::string_view word : words_of(line.substr(0, line.find('#')))) {
-            if (first.empty())
-                first = word;
-            else
-                words.push_back(word);
-        }
-    }
-    if (!first.ends_with("OFF") || words.size() < 2)
-        throw Error({"the header of the OFF file is not whole", name,
-                     "expected OFF, and the numbers of vertices and faces"});
-    if (words[0] == "BINARY")
-        throw Error({"binary OFF files are not read", name, "expected text"});
-    constexpr std::uint64_t kVertexBytes = 6, kFaceBytes = 8; // the shortest lines
-    check_count(parse_count(words[0], name), kVertexBytes, text.size() + 1, name);
-    check_count(parse_count(words[1], name), kFaceBytes, text.size() + 1, name);
-}
-
-/// Keeps OpenMesh's own messages quiet while it reads.
-class Quiet {
-  public:
-    Quiet() : was_(omerr().is_enabled()) { omerr().disable(); }
-    ~Quiet() {
-        if (was_)
-            omerr().enable();
-    }
-    Quiet(const Quiet &) = delete;
-    Quiet &operator=(const Quiet &) = delete;
-
-  private:
-    bool was_;
+/// A file in two: the header as text, and what follows it.
+struct PlyParts {
+    std::string header;
+    std::string decoded;   ///< the whole file, where it is text
+    std::string_view body; ///< of `decoded`, or of the bytes of the file
 };
 
-/// Calls a reader of OpenMesh; they are singletons with a state.
-template <typename Reader>
-PolygonMesh read_with(Reader &reader, std::string_view text, const std::string &name,
-                      const Progress &progress) {
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
-    const Quiet quiet;
-    PolygonImporter importer(name, progress);
-    std::istringstream in{std::string(text)};
-    in.exceptions(std::ios::failbit | std::ios::badbit);
-    OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexTexCoord);
-    bool good = false;
-    try {
-        good = reader.read(in, importer, options);
-    } catch (const Error &) {
-        throw;
-    } catch (const Interrupted &) {
-        throw;
-    } catch (const std::exception &) { // the end of the text, or an allocation
-        good = false;
-    }
-    if (!good)
-        throw Error(
-            {"the file is cut short or damaged", name, "expected as many entries as it declares"});
-    PolygonMesh mesh = importer.take();
-    share_equal_uvs(mesh);
-    return mesh;
+/// Bytes from `ply` to the word end_header; 0 where there is no whole header.
+std::size_t header_bytes(std::string_view bytes) {
+    constexpr std::string_view kEnd = "end_header";
+    if (!bytes.starts_with("ply"))
+        return 0;
+    for (std::size_t at = bytes.find(kEnd); at != bytes.npos; at = bytes.find(kEnd, at + 1))
+        if (bytes[at - 1] == '\n' || bytes[at - 1] == '\r')
+            return at + kEnd.size();
+    return 0;
 }
+
+/// Bytes from the word end_header to the first row: a line ends as the first one does.
+std::size_t line_end_bytes(std::string_view bytes, std::size_t header) {
+    const std::size_t first = bytes.find_first_of("\r\n");
+    const std::size_t size = bytes.substr(first).starts_with("\r\n") ? 2 : 1;
+    return std::min(size, bytes.size() - header);
+}
+
+bool says_binary(std::string_view header) { return header.find("format binary") != header.npos; }
+
+PlyParts split_ply(std::string_view bytes, const std::string &name) {
+    PlyParts parts;
+    std::size_t header = header_bytes(bytes);
+    parts.body = bytes;
+    if (!says_binary(bytes.substr(0, header))) {
+        parts.decoded = decode_text(bytes, name);
+        parts.body = parts.decoded;
+        header = header_bytes(parts.body);
+    }
+    if (header == 0)
+        throw Error({"the header of the PLY file is not whole", name,
+                     "expected ply at the start and end_header at its end"});
+    parts.header = decode_text(parts.body.substr(0, header), name);
+    parts.body.remove_prefix(header + line_end_bytes(parts.body, header));
+    return parts;
+}
+
+class PlyReader {
+  public:
+    PlyReader(const PlyHeader &header, std::string_view body, const std::string &name,
+              const Progress &progress)
+        : header_(header), name_(name), rows_(body, header, name), progress_(progress) {
+        for (const PlyElement &element : header.elements)
+            if (element.name == "vertex")
+                vertices_ = element.rows;
+    }
+
+    PolygonMesh read() {
+        for (const PlyElement &element : header_.elements) {
+            if (element.name == "vertex")
+                read_vertices(element);
+            else if (element.name == "face")
+                read_faces(element);
+            else
+                for (std::size_t row = 0; row < element.rows; ++row)
+                    next_row(element, row);
+        }
+        if (mesh_.face_count() == 0)
+            throw Error({"the file has no face", name_, "expected polygons"});
+        give_vertex_uvs();
+        number_panels();
+        check_indices(mesh_, name_);
+        share_equal_uvs(mesh_);
+        return std::move(mesh_);
+    }
+
+  private:
+    void next_row(const PlyElement &element, std::size_t row) {
+        look_at_stop(progress_, row);
+        rows_.read(element, row);
+    }
+
+    /// The number of a property that is there once and is no list.
+    std::optional<std::size_t> find_number(const PlyElement &element, std::string_view name) const {
+        const auto p = element.find(name);
+        if (p && element.properties[*p].length)
+            throw Error({"the property '" + std::string(name) + "' is a list", element.where,
+                         "expected a number"});
+        return p;
+    }
+
+    void read_vertices(const PlyElement &element) {
+        std::array<std::size_t, 3> at{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto found = find_number(element, std::string_view("xyz").substr(i, 1));
+            if (!found)
+                throw Error({"vertices have no x, y and z", element.where,
+                             "expected property float x, y and z"});
+            at[i] = *found;
+        }
+        const std::optional<UvProperties> uv = find_uv(element);
+        if (uv)
+            first_vertex_uv_ = mesh_.uv.size();
+        for (std::size_t row = 0; row < element.rows; ++row) {
+            next_row(element, row);
+            const glm::dvec3 p(rows_.number(at[0]), rows_.number(at[1]), rows_.number(at[2]));
+            if (!std::isfinite(p.x + p.y + p.z))
+                throw Error({"a coordinate of a vertex is not finite", rows_.where(),
+                             "expected finite numbers"});
+            mesh_.position.push_back(p);
+            if (uv)
+                mesh_.uv.emplace_back(rows_.number(uv->u), rows_.number(uv->v));
+        }
+    }
+
+    struct UvProperties {
+        std::size_t u, v;
+    };
+
+    std::optional<UvProperties> find_uv(const PlyElement &element) const {
+        constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kNames{
+            {{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}}};
+        for (const auto &[u_name, v_name] : kNames)
+            if (const auto u = find_number(element, u_name), v = find_number(element, v_name);
+                u && v)
+                return UvProperties{*u, *v};
+        return std::nullopt;
+    }
+
+    void read_faces(const PlyElement &element) {
+        auto corners = element.find("vertex_indices");
+        if (!corners)
+            corners = element.find("vertex_index");
+        if (!corners || !element.properties[*corners].length)
+            throw Error({"faces have no list of their vertices", element.where,
+                         "expected property list uchar int vertex_indices"});
+        auto uvs = element.find("texcoord");
+        if (uvs && !element.properties[*uvs].length)
+            throw Error({"the property 'texcoord' is no list", element.where,
+                         "expected property list uchar float texcoord"});
+        const auto panel = find_number(element, "panel");
+        has_panels_ = panel.has_value();
+        for (std::size_t row = 0; row < element.rows; ++row) {
+            next_row(element, row);
+            add_corners(rows_.list(*corners));
+            add_corner_uvs(rows_.list(*corners).size(), uvs ? &rows_.list(*uvs) : nullptr);
+            mesh_.face_offset.push_back(static_cast<std::uint32_t>(mesh_.corner_position.size()));
+            mesh_.face_panel.push_back(panel ? whole_number(rows_.number(*panel), "panel") : 0);
+        }
+    }
+
+    /// A number that is a count, as an index.
+    std::uint32_t whole_number(double number, const char *kind,
+                               double below = std::numeric_limits<std::uint32_t>::max()) const {
+        if (number >= 0.0 && number < below && number == std::floor(number))
+            return static_cast<std::uint32_t>(number);
+        throw Error({std::string("a face names ") + kind + " " + number_text(number), rows_.where(),
+                     "expected a whole number from 0 and below " +
+                         std::to_string(static_cast<std::uint64_t>(below))});
+    }
+
+    void add_corners(const std::vector<double> &vertices) {
+        if (vertices.size() < 3)
+            throw Error({"a face has " + detail::counted(vertices.size(), "corner"), rows_.where(),
+                         "expected 3 or more"});
+        for (const double v : vertices)
+            mesh_.corner_position.push_back(
+                whole_number(v, "vertex", static_cast<double>(vertices_)));
+    }
+
+    void add_corner_uvs(std::size_t corners, const std::vector<double> *uvs) {
+        if (!uvs || uvs->empty()) {
+            mesh_.corner_uv.insert(mesh_.corner_uv.end(), corners, -1);
+            return;
+        }
+        if (uvs->size() != 2 * corners)
+            throw Error({"a face of " + detail::counted(corners, "corner") + " has " +
+                             detail::counted(uvs->size(), "number") + " in texcoord",
+                         rows_.where(), "expected two a corner, or none"});
+        for (std::size_t c = 0; c < corners; ++c) {
+            const glm::dvec2 uv((*uvs)[2 * c], (*uvs)[2 * c + 1]);
+            if (!std::isfinite(uv.x + uv.y))
+                throw Error(
+                    {"a UV of a face is not finite", rows_.where(), "expected finite numbers"});
+            mesh_.corner_uv.push_back(static_cast<std::int32_t>(mesh_.uv.size()));
+            mesh_.uv.push_back(uv);
+        }
+    }
+
+    /// UVs of the vertices, where the face has none of its own. Those that no face uses may be
+    /// anything.
+    void give_vertex_uvs() {
+        if (!first_vertex_uv_)
+            return;
+        for (std::size_t c = 0; c < mesh_.corner_uv.size(); ++c) {
+            const std::uint32_t v = mesh_.corner_position[c];
+            const std::size_t uv = *first_vertex_uv_ + v;
+            if (mesh_.corner_uv[c] >= 0)
+                continue;
+            if (!std::isfinite(mesh_.uv[uv].x + mesh_.uv[uv].y))
+                throw Error({"the UV of a vertex is not finite",
+                             name_ + ": vertex " + std::to_string(v), "expected finite numbers"});
+            mesh_.corner_uv[c] = static_cast<std::int32_t>(uv);
+        }
+        for (glm::dvec2 &uv : mesh_.uv)
+            if (!std::isfinite(uv.x + uv.y))
+                uv = glm::dvec2(0.0);
+    }
+
+    /// Panels that have faces, in the order of their numbers, by the names of the comments.
+    void number_panels() {
+        std::map<std::uint32_t, std::uint32_t> index;
+        for (const std::uint32_t number : mesh_.face_panel)
+            index.try_emplace(number, 0);
+        if (!has_panels_ || (index.size() == 1 && header_.panel_name.empty())) {
+            std::fill(mesh_.face_panel.begin(), mesh_.face_panel.end(), 0u);
+            return;
+        }
+        std::map<std::string, int> uses;
+        for (auto &[number, at] : index) {
+            at = static_cast<std::uint32_t>(mesh_.panel_name.size());
+            const auto stated = header_.panel_name.find(number);
+            std::string name = stated != header_.panel_name.end()
+                                   ? stated->second
+                                   : "panel" + std::to_string(number);
+            mesh_.panel_label.push_back({.group = name});
+            if (const int use = ++uses[name]; use > 1)
+                name += "#" + std::to_string(use);
+            mesh_.panel_name.push_back(std::move(name));
+        }
+        for (std::uint32_t &panel : mesh_.face_panel)
+            panel = index.at(panel);
+    }
+
+    const PlyHeader &header_;
+    std::string name_;
+    PlyRows rows_;
+    const Progress &progress_;
+    std::uint64_t vertices_ = 0;
+    std::optional<std::size_t> first_vertex_uv_; ///< in `uv`: one a vertex from there
+    bool has_panels_ = false;
+    PolygonMesh mesh_;
+};
 
 } // namespace
 
 PolygonMesh parse_ply(std::string_view text, const std::string &name, const Progress &progress) {
-    check_ply(text, name);
-    return read_with(OpenMesh::IO::PLYReader(), text, name, progress);
-}
-
-PolygonMesh parse_off(std::string_view text, const std::string &name, const Progress &progress) {
-    check_off(text, name);
-    return read_with(OpenMesh::IO::OFFReader(), text, name, progress);
+    const PlyParts parts = split_ply(text, name);
+    const PlyHeader header = parse_ply_header(parts.header, name);
+    check_ply_counts(header, parts.body.size());
+    return PlyReader(header, parts.body, name, progress).read();
 }
 
 PolygonMesh read_ply(const std::filesystem::path &path, const Progress &progress) {
     return parse_ply(read_file(path), path.string(), progress);
-}
-
-PolygonMesh read_off(const std::filesystem::path &path, const Progress &progress) {
-    return parse_off(read_text(path), path.string(), progress);
 }
 
 } // namespace tsuya::garment

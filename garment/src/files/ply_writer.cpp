@@ -16,7 +16,7 @@ template <typename T> void append(std::string &bytes, const T &value) {
 std::string header(const Surface &s) {
     std::string text = "ply\nformat binary_little_endian 1.0\ncomment written by tsuya; metres\n";
     for (std::size_t p = 0; p < s.panel_name.size(); ++p)
-        text += "comment panel " + std::to_string(p) + " " + s.panel_name[p] + "\n";
+        text += "comment panel " + std::to_string(p) + " " + one_line(s.panel_name[p]) + "\n";
     text += "element vertex " + std::to_string(s.position.size()) + "\n";
     const auto properties = [&](const char *type, std::initializer_list<const char *> names) {
         for (const char *name : names)
