@@ -36,11 +36,11 @@ TEST(Obj, ReadsPolygonsOfAnySizeWithAndWithoutUv) {
 
 TEST(Obj, ReadsNegativeIndicesContinuationsCrlfAndUnknownLines) {
     const PolygonMesh m = parse_obj(
-        "# head\r\nmtllib a.mtl\r\nv 1e0 +2 .5 0.3\r\nv 0 0 \\\r\n 0 1 0 0\r\nbare text\r\n"
+        "# head\r\nmtllib a.mtl\r\nv 1e0 +2 .5 0.5\r\nv 0 0 \\\r\n 0 1 0 0\r\nbare text\r\n"
         "v 1 0 0 # a comment\r\nvt 0.5\r\nf -3/-1 \\\r\n 2/1/7 -1/1\r\n",
         "m.obj");
     ASSERT_EQ(m.face_count(), 1u);
-    EXPECT_EQ(m.position[0], glm::dvec3(1, 2, 0.5));
+    EXPECT_EQ(m.position[0], glm::dvec3(2, 4, 1));
     EXPECT_EQ(m.corner_position, (std::vector<std::uint32_t>{0, 1, 2}));
     EXPECT_EQ(m.uv[0], glm::dvec2(0.5, 0));
 }
@@ -64,11 +64,52 @@ TEST(Obj, SharesEqualUvsOfOneVertex) {
     EXPECT_EQ(m.corner_uv, (std::vector<std::int32_t>{0, 1, 2, 1, 5, 2}));
 }
 
+TEST(Obj, FurtherNumbersOfAVertexAreWOrAColour) {
+    const std::string rest = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_EQ(parse_obj("v 3 6 9 3\n" + rest, "m").position[0], glm::dvec3(1, 2, 3));
+    EXPECT_EQ(parse_obj("v 3 6 9 -1.5 # mirrored\n" + rest, "m").position[0],
+              glm::dvec3(-2, -4, -6));
+    EXPECT_EQ(parse_obj("v 3 6 9 0.5 0.5 0.5\n" + rest, "m").position[0], glm::dvec3(3, 6, 9));
+    EXPECT_EQ(parse_obj("v 3 6 9 0.5 0 0 1\n" + rest, "m").position[0], glm::dvec3(3, 6, 9));
+    EXPECT_EQ(places("v 3 6 9 0\n" + rest), (std::vector<std::string>{"m.obj:1:9"}));
+    EXPECT_EQ(places("v 3 6 9 1 1\n" + rest), (std::vector<std::string>{"m.obj:1:9"}));
+    EXPECT_EQ(places("v 3 6 9 1 1 1 1 1\n" + rest), (std::vector<std::string>{"m.obj:1:9"}));
+    EXPECT_EQ(places("v 3 6 9 w\n" + rest), (std::vector<std::string>{"m.obj:1:9"}));
+}
+
+TEST(Obj, UvsThatNoFaceUsesMayBeAnything) {
+    const std::string uvs = kThree + "vt 0 0\nvt 1 0\nvt 0 1\nvt nan 0\nvt 0.5 -inf\n"
+                                     "vt -1.#IND -1.#IND\n";
+    EXPECT_EQ(parse_obj(uvs + "f 1/1 2/2 3/3\n", "m").corner_uv,
+              (std::vector<std::int32_t>{0, 1, 2}));
+    EXPECT_EQ(places(uvs + "f 1/1 2/2 3/4\n"), (std::vector<std::string>{"m.obj:7:4"}));
+    EXPECT_EQ(places(uvs + "f 1/1 2/5 3/6\n"),
+              (std::vector<std::string>{"m.obj:8:8", "m.obj:9:4"}));
+    EXPECT_EQ(places(uvs + "vt one 0\nf 1/1 2/2 3/3\n"), (std::vector<std::string>{"m.obj:10:4"}));
+}
+
+TEST(Obj, KeepsMoreThan65535Groups) {
+    std::string text = kThree;
+    constexpr std::uint32_t kGroups = 70000;
+    for (std::uint32_t i = 0; i < kGroups; ++i)
+        text += "g piece" + std::to_string(i) + "\nf 1 2 3\n";
+    const PolygonMesh m = parse_obj(text, "m");
+    ASSERT_EQ(m.panel_name.size(), kGroups);
+    EXPECT_EQ(m.panel_name.back(), "piece69999");
+    EXPECT_EQ(m.face_panel.back(), kGroups - 1);
+}
+
 TEST(Obj, BadInputNamesLineAndColumn) {
     EXPECT_EQ(places("v 0 0 0\nv nan 0 0\n"), (std::vector<std::string>{"m.obj:2:3"}));
     EXPECT_EQ(places("v 0 -inf 0\n"), (std::vector<std::string>{"m.obj:1:5"}));
     EXPECT_EQ(places("v 0 1e999 0\n"), (std::vector<std::string>{"m.obj:1:5"}));
     EXPECT_EQ(places("v 0 1.#IND 0\n"), (std::vector<std::string>{"m.obj:1:5"}));
+    try {
+        parse_obj("v 0 0 " + std::string(1000, 'x') + "\n", "m.obj");
+        FAIL();
+    } catch (const Error &error) { // a word is shown in part
+        EXPECT_LT(std::string(error.what()).size(), 200u);
+    }
     EXPECT_EQ(places("v 0 0\n"), (std::vector<std::string>{"m.obj:1:6"}));
     EXPECT_EQ(places("vt x 0\n"), (std::vector<std::string>{"m.obj:1:4"}));
     EXPECT_EQ(places(kThree + "f 1 2 0\n"), (std::vector<std::string>{"m.obj:4:7"}));
@@ -122,7 +163,7 @@ TEST(Obj, ReadsLargeFilesInBlocksAsIfAtOnce) {
     }
     ASSERT_GT(text.size(), 4u << 20);
     for (const std::string &end : {std::string(), std::string("\n\n"), std::string("v 1 2 3"),
-                                   "v 1 2 3 " + std::string(3 << 20, '9')}) {
+                                   "v 1 2 3 1." + std::string(3 << 20, '0')}) {
         PolygonMesh read;
         const PolygonMesh expected = parse_obj(text + end, "m.obj");
         EXPECT_EQ(places_in_file(text + end, &read), places(text + end));

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "files/words.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
@@ -13,7 +14,7 @@ std::uint64_t parse_count(std::string_view word, const std::string &where) {
     std::uint64_t count = 0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), count);
     if (error != std::errc{} || stop != word.data() + word.size())
-        throw Error({"'" + std::string(word) + "' is no count", where, "expected a number"});
+        throw Error({in_quotes(word) + " is no count", where, "expected a number"});
     return count;
 }
 

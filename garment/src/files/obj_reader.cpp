@@ -3,9 +3,12 @@
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
+#include "files/declared_count.h"
 #include "files/text_blocks.h"
 #include "files/text_cursor.h"
+#include "files/words.h"
 #include "mesh/stop.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/sdk/detail/counted.h"
@@ -35,6 +38,18 @@ struct ForwardIndex {
     bool is_uv;
 };
 
+/// A UV that is not finite, which no face may use.
+struct BadUv {
+    std::int32_t uv;
+    std::uint32_t line, column;
+};
+
+/// `nan`, `-inf`, and what old C libraries write for them: `-1.#IND`.
+bool says_not_finite(std::string_view word) {
+    const std::optional<double> number = parse_number(word);
+    return number ? !std::isfinite(*number) : word.find(".#") != word.npos;
+}
+
 class ObjParser {
   public:
     explicit ObjParser(const std::string &name) : text_({}, name), name_(name) {}
@@ -49,6 +64,7 @@ class ObjParser {
     /// The mesh, after the last lines.
     PolygonMesh finish() {
         check_forward_indices();
+        check_bad_uvs();
         if (problems_.empty() && mesh_.face_count() == 0)
             problems_.add({"the file has no face", name_, "expected lines such as f 1 2 3"});
         problems_.throw_if_any();
@@ -89,25 +105,59 @@ class ObjParser {
             add_problem(std::string("a number of the ") + what + " is missing", where,
                         "expected a finite number");
         else
-            add_problem("'" + word + "' in a " + what + " is not a finite number", where,
+            add_problem(in_quotes(word) + " in a " + what + " is not a finite number", where,
                         "expected a number such as -0.25 or 1e-3");
         return false;
     }
 
     void parse_position() {
         glm::dvec3 p{0.0};
-        for (int i = 0; i < 3; ++i)
-            if (!parse_number(p[i], "vertex"))
-                break;
+        bool good = true;
+        for (int i = 0; i < 3 && good; ++i)
+            good = parse_number(p[i], "vertex");
+        if (good && text_.skip_blanks())
+            p /= parse_weight();
         mesh_.position.push_back(p);
+    }
+
+    /// What follows the three coordinates of a vertex: w, which divides them, or a colour of three
+    /// or four numbers. 1 where it is a colour.
+    double parse_weight() {
+        const std::string where = text_.where();
+        std::array<double, 4> number{};
+        std::size_t count = 0;
+        while (count < number.size() && text_.skip_blanks())
+            if (!parse_number(number[count++], "vertex"))
+                return 1.0;
+        if (count == 2 || text_.skip_blanks())
+            add_problem("a vertex has " + (count == 2 ? std::string("5") : "more than 7") +
+                            " numbers",
+                        where, "expected x y z, x y z w, x y z r g b or x y z r g b a");
+        else if (count == 1 && number[0] == 0.0)
+            add_problem("the w of a vertex is 0", where, "expected another number, such as 1");
+        else if (count == 1)
+            return number[0];
+        return 1.0;
     }
 
     void parse_uv() {
         // The second number may be absent (a one-dimensional texture).
         glm::dvec2 t{0.0};
-        if (parse_number(t.x, "texture coordinate") && text_.skip_blanks())
-            parse_number(t.y, "texture coordinate");
+        if (parse_uv_number(t.x) && text_.skip_blanks())
+            parse_uv_number(t.y);
         mesh_.uv.push_back(t);
+    }
+
+    /// False after a problem, and where the number is not finite.
+    bool parse_uv_number(double &value) {
+        if (text_.skip_blanks() && text_.number(value))
+            return true;
+        TextCursor word = text_;
+        if (!says_not_finite(word.word()))
+            return parse_number(value, "texture coordinate");
+        bad_uvs_.push_back({static_cast<std::int32_t>(mesh_.uv.size()), text_.line(),
+                            text_.column(text_.position())});
+        return false;
     }
 
     void parse_name(PanelNames &names) {
@@ -145,7 +195,7 @@ class ObjParser {
         const char *kind = is_uv ? "texture coordinate" : "vertex";
         long long index = 0;
         if (!text_.index(index)) {
-            add_problem("'" + std::string(text_.word()) + "' in a face is not an index",
+            add_problem(in_quotes(text_.word()) + " in a face is not an index",
                         text_.where(line, column), "expected v, v/vt, v//vn or v/vt/vn");
             return -1;
         }
@@ -182,7 +232,7 @@ class ObjParser {
         }
         if (!text_.at_blank()) {
             const std::string where = text_.where();
-            add_problem("'" + std::string(text_.word()) + "' follows an index", where,
+            add_problem(in_quotes(text_.word()) + " follows an index", where,
                         "expected v, v/vt, v//vn or v/vt/vn");
             return false;
         }
@@ -220,6 +270,16 @@ class ObjParser {
                             text_.where(f.line, f.column),
                             "expected 1 to " + std::to_string(count));
         }
+    }
+
+    void check_bad_uvs() {
+        if (bad_uvs_.empty())
+            return;
+        const std::unordered_set<std::int32_t> used(mesh_.corner_uv.begin(), mesh_.corner_uv.end());
+        for (const BadUv &bad : bad_uvs_)
+            if (used.contains(bad.uv))
+                add_problem("a texture coordinate that a face uses is not finite",
+                            text_.where(bad.line, bad.column), "expected finite numbers");
     }
 
     const std::string &name_of(const PanelKey &panel, std::size_t kind) const {
@@ -280,6 +340,7 @@ class ObjParser {
     std::map<PanelKey, std::uint32_t> panel_index_;
     std::optional<std::uint32_t> panel_; ///< of the current names
     std::vector<ForwardIndex> forward_;
+    std::vector<BadUv> bad_uvs_;
     Problems problems_;
 };
 

@@ -33,8 +33,7 @@ OffKind parse_kind(std::string_view word, const std::string &where) {
     kind.has_normal = take("N");
     kind.homogeneous = take("4");
     if (rest != "OFF")
-        throw Error({word.empty() ? "the file is empty"
-                                  : "'" + std::string(word.substr(0, 20)) + "' is no kind of OFF",
+        throw Error({word.empty() ? "the file is empty" : in_quotes(word) + " is no kind of OFF",
                      where, "expected OFF, COFF, NOFF, CNOFF or one of these with ST before it"});
     return kind;
 }
@@ -138,7 +137,7 @@ class OffText {
     double number(std::string_view word) const {
         if (const std::optional<double> value = parse_number(word))
             return *value;
-        throw Error({"'" + std::string(word) + "' is no number", where(), "expected a number"});
+        throw Error({in_quotes(word) + " is no number", where(), "expected a number"});
     }
 
     void read_vertex(const OffKind &kind) {

@@ -36,7 +36,7 @@ PlyType parse_type(std::string_view word, const std::string &where) {
     for (const TypeName &known : kTypes)
         if (known.name == word)
             return known.type;
-    throw Error({"'" + std::string(word) + "' is no type of PLY", where,
+    throw Error({in_quotes(word) + " is no type of PLY", where,
                  "expected char, uchar, short, ushort, int, uint, float or double"});
 }
 
@@ -47,7 +47,7 @@ PlyFormat parse_format(std::string_view word, const std::string &where) {
         return PlyFormat::little_endian;
     if (word == "binary_big_endian")
         return PlyFormat::big_endian;
-    throw Error({"'" + std::string(word) + "' is no format of PLY", where,
+    throw Error({in_quotes(word) + " is no format of PLY", where,
                  "expected ascii, binary_little_endian or binary_big_endian"});
 }
 

@@ -74,7 +74,7 @@ void PlyRows::read(const PlyElement &element, std::size_t row) {
             entry = take_number(property.type);
     }
     if (const std::string_view more = take_word(row_text_); !more.empty())
-        throw Error({"'" + std::string(more) + "' follows the numbers of the row", where(),
+        throw Error({in_quotes(more) + " follows the numbers of the row", where(),
                      "expected what the header declares for '" + element_ + "'"});
 }
 
@@ -94,7 +94,7 @@ double PlyRows::take_text() {
                      "expected what the header declares for '" + element_ + "'"});
     if (const std::optional<double> number = parse_number(word))
         return *number;
-    throw Error({"'" + std::string(word) + "' is no number", where(), "expected a number"});
+    throw Error({in_quotes(word) + " is no number", where(), "expected a number"});
 }
 
 double PlyRows::take_number(PlyType type) {

@@ -3,6 +3,7 @@
 /// Lines and words of a text.
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,13 @@ inline std::vector<std::string_view> words_of(std::string_view line) {
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
         words.push_back(word);
     return words;
+}
+
+/// A word for a message, in quotes: the start of a long one.
+inline std::string in_quotes(std::string_view word) {
+    constexpr std::size_t kShown = 40;
+    const bool whole = word.size() <= kShown;
+    return "'" + std::string(word.substr(0, kShown)) + (whole ? "'" : "...'");
 }
 
 } // namespace tsuya::garment

@@ -12,8 +12,9 @@
 
 namespace tsuya::garment {
 
-/// Reads `v`, `vt`, `f`, `g`, `o` and `usemtl`; every other line is ignored, and so are w, vertex
-/// colours, normals and the third texture coordinate. Faces may have any size, negative indices,
+/// Reads `v`, `vt`, `f`, `g`, `o` and `usemtl`; every other line is ignored, and so are vertex
+/// colours (`v x y z r g b`), normals and the third texture coordinate; the w of a vertex divides
+/// its coordinates. Faces may have any size, negative indices,
 /// one `vt` a corner or none; lines may end in CRLF or be continued by a backslash. Panels are
 /// named by the first of `g`, `o`, `usemtl` that tells faces apart, or else by the first that the
 /// file has; a file with none has no panel names.
@@ -22,7 +23,8 @@ namespace tsuya::garment {
 /// where the UV has exactly equal values, so that files with one `vt` a corner are continuous.
 ///
 /// Throws Error listing up to 20 places as `file:line:column`: a number that does not parse or is
-/// not finite, an index that is 0 or names nothing, a face of fewer than 3 corners, no face at all.
+/// not finite (UVs that no face uses may be anything), a w of 0, an index that is 0 or names
+/// nothing, a face of fewer than 3 corners, no face at all.
 PolygonMesh read_obj(const std::filesystem::path &path, const Progress &progress = {});
 
 /// The same from text in memory. \param name stands for the file in errors
