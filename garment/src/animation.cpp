@@ -52,14 +52,9 @@ struct AnimatedGarment::State {
 
 AnimatedGarment::AnimatedGarment(const MeshFile &file, const Options &options,
                                  const std::string &where, const Progress &progress) {
-    Options with_hints = options;
-    const std::vector<Finding> findings = use_hints(file.hints, with_hints.frames);
     state_ =
         std::make_unique<State>(State{options.metres_per_unit, where, file.mesh.position.size(),
-                                      load_steps(file.mesh, with_hints, where, progress)});
-    LoadedGarment &garment = state_->steps.garment;
-    garment.hints = file.hints;
-    garment.report.findings.insert(garment.report.findings.end(), findings.begin(), findings.end());
+                                      load_steps(file, options, where, progress)});
     state_->steps.subdivider.expect_frames(progress);
 }
 

@@ -68,6 +68,13 @@ void use_hint(const FabricHint &hint, FrameOptions &frames, std::vector<Finding>
         findings.push_back(std::move(finding));
 }
 
+std::vector<Finding> use_hints(const std::vector<FabricHint> &hints, FrameOptions &frames) {
+    std::vector<Finding> findings;
+    for (const FabricHint &hint : hints)
+        use_hint(hint, frames, findings);
+    return findings;
+}
+
 } // namespace
 
 double metres_per(std::string_view unit) {
@@ -83,16 +90,10 @@ double metres_per(std::string_view unit) {
                  accepted_names(unit, names)});
 }
 
-std::vector<Finding> use_hints(const std::vector<FabricHint> &hints, FrameOptions &frames) {
-    std::vector<Finding> findings;
-    for (const FabricHint &hint : hints)
-        use_hint(hint, frames, findings);
-    return findings;
-}
-
 namespace {
 
-LoadSteps run_steps(const PolygonMesh &mesh, const Options &options, const std::string &where,
+LoadSteps run_steps(const PolygonMesh &mesh, const Options &options,
+                    const std::vector<Finding> &of_file, const std::string &where,
                     const Progress &progress) {
     check_indices(mesh, where);
     PolygonMesh metres = mesh;
@@ -125,6 +126,7 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options, const std::
     out.report.repaired_frames = frame_report.repaired;
     out.report.repaired_area_share = frame_report.repaired_area_share;
     find_repairs(out.report);
+    out.report.findings.insert(out.report.findings.end(), of_file.begin(), of_file.end());
     if (options.strict)
         refuse_warnings(out.report, where);
     check_surface(out.surface, where);
@@ -133,29 +135,35 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options, const std::
 
 } // namespace
 
-LoadSteps load_steps(const PolygonMesh &mesh, const Options &options, const std::string &where,
+LoadSteps load_steps(const PolygonMesh &mesh, const Options &options,
+                     const std::vector<Finding> &of_file, const std::string &where,
                      const Progress &progress) {
     check_options(options, where);
     try {
-        return run_steps(mesh, options, where, progress);
+        return run_steps(mesh, options, of_file, where, progress);
     } catch (const Error &error) {
         throw placed(error, where);
     }
 }
 
+LoadSteps load_steps(const MeshFile &file, const Options &options, const std::string &where,
+                     const Progress &progress) {
+    Options with_hints = options;
+    std::vector<Finding> findings = use_hints(file.hints, with_hints.frames);
+    findings.insert(findings.begin(), file.findings.begin(), file.findings.end());
+    LoadSteps steps = load_steps(file.mesh, with_hints, findings, where, progress);
+    steps.garment.hints = file.hints;
+    return steps;
+}
+
 LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
                    const Progress &progress) {
-    return load_steps(mesh, options, where, progress).garment;
+    return load_steps(mesh, options, {}, where, progress).garment;
 }
 
 LoadedGarment load(const MeshFile &file, const Options &options, const std::string &where,
                    const Progress &progress) {
-    Options with_hints = options;
-    const std::vector<Finding> findings = use_hints(file.hints, with_hints.frames);
-    LoadedGarment out = load(file.mesh, with_hints, where, progress);
-    out.hints = file.hints;
-    out.report.findings.insert(out.report.findings.end(), findings.begin(), findings.end());
-    return out;
+    return load_steps(file, options, where, progress).garment;
 }
 
 LoadedGarment load(const std::filesystem::path &path, const Options &options,

@@ -14,12 +14,13 @@ struct LoadSteps {
     FrameOptions frames{}; ///< as they were used
 };
 
-/// Everything that load does. Throws as load.
-LoadSteps load_steps(const PolygonMesh &mesh, const Options &options, const std::string &where,
+/// Everything that load does. `of_file` are findings of the reader. Throws as load.
+LoadSteps load_steps(const PolygonMesh &mesh, const Options &options,
+                     const std::vector<Finding> &of_file, const std::string &where,
                      const Progress &progress);
 
-/// The grain that a file's materials state, for panels that `frames` does not name; what was done
-/// as findings.
-std::vector<Finding> use_hints(const std::vector<FabricHint> &hints, FrameOptions &frames);
+/// The same for a file: with its hints and its findings. Throws as load.
+LoadSteps load_steps(const MeshFile &file, const Options &options, const std::string &where,
+                     const Progress &progress);
 
 } // namespace tsuya::garment

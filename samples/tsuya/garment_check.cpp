@@ -39,11 +39,12 @@ struct GarmentCheck final : Command {
 
     Status run(Console &console) override {
         const double metres = garment::metres_per(unit);
-        garment::PolygonMesh read = garment::read_mesh(mesh, console.progress()).mesh;
-        for (glm::dvec3 &p : read.position)
+        garment::MeshFile read = garment::read_mesh(mesh, console.progress());
+        for (glm::dvec3 &p : read.mesh.position)
             p *= metres;
-        const garment::Report report =
-            garment::check(std::move(read), seams, console.progress(), metres_per_uv);
+        garment::Report report =
+            garment::check(std::move(read.mesh), seams, console.progress(), metres_per_uv);
+        report.findings.insert(report.findings.end(), read.findings.begin(), read.findings.end());
         if (json)
             std::cout << json_of(report).text() << "\n";
         else

@@ -30,6 +30,8 @@ install(FILES "${PROJECT_BINARY_DIR}/tsuyaConfig.cmake"
 set(pc_of_TBB::tbb -ltbb)
 set(pc_of_embree -lembree3)
 set(pc_of_OpenColorIO::OpenColorIO -lOpenColorIO)
+set(pc_of_draco::draco -ldraco)
+set(pc_of_meshoptimizer::meshoptimizer -lmeshoptimizer)
 set(pc_of_OpenMeshCore -lOpenMeshCore)
 set(pc_of_OpenSubdiv::osdCPU -losdCPU)
 set(pc_of_PkgConfig::gpiodcxx -lgpiodcxx)

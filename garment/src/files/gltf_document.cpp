@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "files/gltf_compression.h"
+#include "files/gltf_extensions.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -207,6 +209,9 @@ void apply_sparse(const tinygltf::Model &model, const tinygltf::Accessor &access
 tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &name,
                                     const std::filesystem::path &folder) {
     check_depth(json_text(bytes, name), name);
+    const std::optional<std::string> changed = without_placeholders(bytes);
+    if (changed)
+        bytes = *changed;
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
         throw Error({"the file is larger than 4 GiB", name, "expected less"});
     Sandbox sandbox{folder, ""};
@@ -238,7 +243,29 @@ tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &n
                      "expected buffers beside the file"});
     if (!good || !error.empty())
         throw Error({first_line(error), name, "expected glTF 2.0"});
+    check_required_extensions(model, name);
+    decode_meshopt(model, name);
+    decode_draco(model, name);
     return model;
+}
+
+std::string_view buffer_bytes(const tinygltf::Model &model, int buffer, std::size_t offset,
+                              std::size_t count, const std::string &where) {
+    if (buffer < 0 || static_cast<std::size_t>(buffer) >= model.buffers.size())
+        refuse("buffer " + std::to_string(buffer) + " does not exist", where);
+    const auto &data = model.buffers[static_cast<std::size_t>(buffer)].data;
+    if (offset > data.size() || count > data.size() - offset)
+        refuse("buffer " + std::to_string(buffer) + " has fewer bytes", where);
+    return {reinterpret_cast<const char *>(data.data()) + offset, count};
+}
+
+int add_buffer_view(tinygltf::Model &model, std::vector<unsigned char> bytes) {
+    tinygltf::BufferView view;
+    view.buffer = static_cast<int>(model.buffers.size());
+    view.byteLength = bytes.size();
+    model.buffers.emplace_back().data = std::move(bytes);
+    model.bufferViews.push_back(std::move(view));
+    return static_cast<int>(model.bufferViews.size() - 1);
 }
 
 std::vector<double> read_accessor(const tinygltf::Model &model, int index, int components,

@@ -16,8 +16,9 @@
 
 namespace tsuya::garment {
 
-/// Parses bytes of a `.gltf` or `.glb`. Buffers come from the bytes or from files in `folder`.
-/// Throws Error naming `name`.
+/// Parses bytes of a `.gltf` or `.glb`, and decodes what is compressed. Buffers come from the bytes
+/// or from files in `folder`. Throws Error naming `name`, also for a required extension that is not
+/// known.
 tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &name,
                                     const std::filesystem::path &folder);
 

@@ -1,48 +1,22 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 
-#include <glm/gtc/quaternion.hpp>
-
-#include "files/gltf_document.h"
+#include "files/gltf_alpha.h"
+#include "files/gltf_compression.h"
 #include "files/gltf_hints.h"
+#include "files/gltf_skin.h"
+#include "files/words.h"
 #include "mesh/stop.h"
 #include "tsuya/garment/gltf.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
 namespace tsuya::garment {
 namespace {
-
-/// Corners and morphed vertices that any file may ask for, and how many more a byte of it: a node
-/// can repeat a mesh, which a small file must not turn into a huge one.
-constexpr std::size_t kFreeCorners = 1u << 22;
-constexpr std::size_t kCornersPerByte = 64;
-
-glm::dmat4 local_transform(const tinygltf::Node &node) {
-    glm::dmat4 m(1.0);
-    if (node.matrix.size() == 16) {
-        for (int i = 0; i < 16; ++i)
-            m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-        return m;
-    }
-    const auto part = [](const std::vector<double> &v, std::size_t n) { return v.size() == n; };
-    if (part(node.translation, 3))
-        m[3] = {node.translation[0], node.translation[1], node.translation[2], 1.0};
-    if (part(node.rotation, 4)) {
-        glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        const double length = glm::length(q);
-        if (length > 0.0)
-            m *= glm::mat4_cast(q / length);
-    }
-    if (part(node.scale, 3))
-        for (int i = 0; i < 3; ++i)
-            m[i] *= node.scale[static_cast<std::size_t>(i)];
-    return m;
-}
 
 /// Corners of the triangles of a primitive; empty for points and lines.
 std::vector<std::uint32_t> triangle_corners(const tinygltf::Primitive &primitive,
@@ -75,53 +49,12 @@ struct Part {
     std::vector<glm::dvec2> uv;                   ///< v upwards; may be empty
     std::vector<glm::dvec4> tangent;              ///< may be empty
     std::vector<std::uint32_t> corner;
-    std::optional<FabricHint> hint;
+    std::optional<FabricHint> hint; ///< the threads counted from +u
 };
 
 int find_attribute(const std::map<std::string, int> &attributes, const std::string &name) {
     const auto it = attributes.find(name);
     return it == attributes.end() ? -1 : it->second;
-}
-
-Part read_part(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-               const std::string &where) {
-    Part part;
-    part.position = rows3(read_accessor(model, find_attribute(primitive.attributes, "POSITION"), 3,
-                                        0, where + ": POSITION"));
-    const std::size_t n = part.position.size();
-    std::vector<std::uint32_t> index(n);
-    std::iota(index.begin(), index.end(), 0u);
-    if (primitive.indices >= 0)
-        index = read_indices(model, primitive.indices, where + ": indices");
-    part.corner = triangle_corners(primitive, index);
-    for (const std::uint32_t v : part.corner)
-        if (v >= n)
-            throw Error({"index " + std::to_string(v) + " names no vertex", where,
-                         "expected less than " + std::to_string(n)});
-    const GltfUv transform = gltf_uv(model, primitive.material);
-    if (const int uv = find_attribute(primitive.attributes, transform.attribute); uv >= 0) {
-        const auto numbers = read_accessor(model, uv, 2, n, where + ": " + transform.attribute);
-        for (std::size_t i = 0; i < n; ++i) {
-            const glm::dvec2 t = transform.apply({numbers[2 * i], numbers[2 * i + 1]});
-            part.uv.emplace_back(t.x, 1.0 - t.y); // glTF counts v downwards
-        }
-    }
-    if (const int t = find_attribute(primitive.attributes, "TANGENT"); t >= 0) {
-        const auto numbers = read_accessor(model, t, 4, n, where + ": TANGENT");
-        for (std::size_t i = 0; i < n; ++i)
-            part.tangent.emplace_back(numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2],
-                                      numbers[4 * i + 3]);
-    }
-    for (const auto &target : primitive.targets) {
-        part.morphed.push_back(part.position);
-        if (const int p = find_attribute(target, "POSITION"); p >= 0) {
-            const auto shift = rows3(read_accessor(model, p, 3, n, where + ": target POSITION"));
-            for (std::size_t i = 0; i < n; ++i)
-                part.morphed.back()[i] += shift[i];
-        }
-    }
-    part.hint = gltf_hint(model, primitive.material);
-    return part;
 }
 
 /// Angle of the tangents in the UV plane, and whether the bitangents run with +v (1) or against it
@@ -164,6 +97,72 @@ TangentFit fit_tangents(const Part &part) {
     return {std::atan2(direction.y, direction.x), side < 0.0 ? -1.0 : 1.0};
 }
 
+Part read_part(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+               const std::string &where) {
+    Part part;
+    part.position = rows3(read_accessor(model, find_attribute(primitive.attributes, "POSITION"), 3,
+                                        0, where + ": POSITION"));
+    const std::size_t n = part.position.size();
+    std::vector<std::uint32_t> index(n);
+    std::iota(index.begin(), index.end(), 0u);
+    if (primitive.indices >= 0)
+        index = read_indices(model, primitive.indices, where + ": indices");
+    part.corner = triangle_corners(primitive, index);
+    for (const std::uint32_t v : part.corner)
+        if (v >= n)
+            throw Error({"index " + std::to_string(v) + " names no vertex", where,
+                         "expected less than " + std::to_string(n)});
+    const GltfUv transform = gltf_uv(model, primitive.material);
+    if (const int uv = find_attribute(primitive.attributes, transform.attribute); uv >= 0) {
+        const auto numbers = read_accessor(model, uv, 2, n, where + ": " + transform.attribute);
+        for (std::size_t i = 0; i < n; ++i) {
+            const glm::dvec2 t = transform.apply({numbers[2 * i], numbers[2 * i + 1]});
+            part.uv.emplace_back(t.x, 1.0 - t.y); // glTF counts v downwards
+        }
+    }
+    if (const int t = find_attribute(primitive.attributes, "TANGENT"); t >= 0) {
+        const auto numbers = read_accessor(model, t, 4, n, where + ": TANGENT");
+        for (std::size_t i = 0; i < n; ++i)
+            part.tangent.emplace_back(numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2],
+                                      numbers[4 * i + 3]);
+    }
+    for (const auto &target : primitive.targets) {
+        part.morphed.push_back(part.position);
+        if (const int p = find_attribute(target, "POSITION"); p >= 0) {
+            const auto shift = rows3(read_accessor(model, p, 3, n, where + ": target POSITION"));
+            for (std::size_t i = 0; i < n; ++i)
+                part.morphed.back()[i] += shift[i];
+        }
+    }
+    part.hint = gltf_hint(model, primitive.material);
+    if (part.hint && !part.tangent.empty() && !part.uv.empty()) {
+        const TangentFit fit = fit_tangents(part);
+        part.hint->thread_angle = fit.angle + fit.side * part.hint->thread_angle;
+    }
+    return part;
+}
+
+/// Takes a part to where it stands in the file, by one matrix or by one of each vertex. Where that
+/// mirrors, its triangles are turned over.
+void place_part(Part &part, const std::vector<glm::dmat4> &matrices) {
+    const auto matrix = [&](std::size_t v) -> const glm::dmat4 & {
+        return matrices[matrices.size() == 1 ? 0 : v];
+    };
+    const auto place = [&](std::vector<glm::dvec3> &points) {
+        for (std::size_t v = 0; v < points.size(); ++v)
+            points[v] = glm::dvec3(matrix(v) * glm::dvec4(points[v], 1.0));
+    };
+    place(part.position);
+    for (std::vector<glm::dvec3> &shape : part.morphed)
+        place(shape);
+    std::size_t mirrored = 0;
+    for (const std::uint32_t v : part.corner)
+        mirrored += glm::determinant(glm::dmat3(matrix(v))) < 0.0;
+    if (2 * mirrored > part.corner.size())
+        for (std::size_t c = 0; c + 2 < part.corner.size(); c += 3)
+            std::swap(part.corner[c + 1], part.corner[c + 2]);
+}
+
 /// Vertices at exactly one place in every shape become one. Returns the first of each.
 std::vector<std::uint32_t> weld(const Part &part) {
     const auto order = [&](std::uint32_t a, std::uint32_t b) {
@@ -201,31 +200,15 @@ class GltfReader {
     }
 
     MeshFile read() {
-        struct Visit {
-            int node;
-            glm::dmat4 parent;
-        };
-        std::vector<Visit> open;
-        const std::vector<int> roots = root_nodes();
-        for (auto it = roots.rbegin(); it != roots.rend(); ++it)
-            open.push_back({*it, glm::dmat4(1.0)});
-        std::vector<bool> seen(model_.nodes.size(), false);
-        while (!open.empty()) {
-            const Visit visit = open.back();
-            open.pop_back();
-            const std::string where = name_ + ": node " + std::to_string(visit.node);
-            if (visit.node < 0 || static_cast<std::size_t>(visit.node) >= seen.size())
-                throw Error({"the node does not exist", where, "expected a node of the file"});
-            const auto index = static_cast<std::size_t>(visit.node);
-            if (seen[index])
-                throw Error({"the node has two parents", where, "expected a tree"});
-            seen[index] = true;
+        nodes_ = place_nodes(model_, name_);
+        for (const std::size_t index : nodes_.shown) {
             const tinygltf::Node &node = model_.nodes[index];
-            const glm::dmat4 world = visit.parent * local_transform(node);
-            add_node(node, world, where);
-            for (auto it = node.children.rbegin(); it != node.children.rend(); ++it)
-                open.push_back({*it, world});
+            if (node.mesh >= 0)
+                add_mesh(node.mesh, node, nodes_.world[index],
+                         name_ + ": node " + std::to_string(index));
         }
+        add_unplaced_meshes();
+        alpha_.report(model_, out_.findings);
         if (out_.mesh.face_count() == 0)
             throw Error({"the file has no triangle", name_, "expected a mesh of triangles"});
         check_indices(out_.mesh, name_);
@@ -233,40 +216,56 @@ class GltfReader {
     }
 
   private:
-    std::vector<int> root_nodes() const {
-        const auto scene = static_cast<std::size_t>(std::max(0, model_.defaultScene));
-        if (scene < model_.scenes.size())
-            return model_.scenes[scene].nodes;
-        std::set<int> children;
-        for (const tinygltf::Node &node : model_.nodes)
-            children.insert(node.children.begin(), node.children.end());
-        std::vector<int> roots;
-        for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i)
-            if (!children.contains(i))
-                roots.push_back(i);
-        return roots;
-    }
-
-    void add_node(const tinygltf::Node &node, const glm::dmat4 &world, const std::string &where) {
-        if (node.mesh < 0)
-            return;
-        if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
-            throw Error({"mesh " + std::to_string(node.mesh) + " does not exist", where,
+    void add_mesh(int number, const tinygltf::Node &node, const glm::dmat4 &world,
+                  const std::string &where) {
+        if (static_cast<std::size_t>(number) >= model_.meshes.size())
+            throw Error({"mesh " + std::to_string(number) + " does not exist", where,
                          "expected a mesh of the file"});
-        const tinygltf::Mesh &mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+        placed_.insert(number);
+        const tinygltf::Mesh &mesh = model_.meshes[static_cast<std::size_t>(number)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const tinygltf::Primitive &primitive = mesh.primitives[i];
             const std::string place = where + ": primitive " + std::to_string(i);
             look_at_stop(progress_);
-            PanelLabel label{
-                .object = node.name, .group = mesh.name, .material = material_of(primitive)};
             std::string name = !node.name.empty() ? node.name : mesh.name;
             if (mesh.primitives.size() > 1)
                 name += "/" + std::to_string(i);
-            const Part part = read_part(model_, primitive, place);
-            if (!part.corner.empty())
-                add_part(part, world, add_panel(std::move(name), std::move(label)), place);
+            Part part = read_part(model_, primitive, place);
+            if (part.corner.empty())
+                continue;
+            take_room(part.corner.size() + part.position.size() * (1 + part.morphed.size()), place);
+            place_part(part, node.skin < 0 ? std::vector{world}
+                                           : skin_matrices(model_, nodes_, node.skin, primitive,
+                                                           part.position.size(), place));
+            const std::uint32_t panel = add_panel(
+                std::move(name),
+                {.object = node.name, .group = mesh.name, .material = material_of(primitive)});
+            alpha_.note(model_, primitive.material, out_.mesh.panel_name[panel]);
+            add_part(part, panel);
         }
+    }
+
+    /// Meshes that stand in no node of the scene: all of them where the scene has none, else none.
+    void add_unplaced_meshes() {
+        std::string names;
+        std::size_t count = 0;
+        const bool none_placed = placed_.empty();
+        for (int m = 0; m < static_cast<int>(model_.meshes.size()); ++m) {
+            if (placed_.contains(m))
+                continue;
+            if (none_placed)
+                add_mesh(m, {}, glm::dmat4(1.0), name_ + ": mesh " + std::to_string(m));
+            const std::string &name = model_.meshes[static_cast<std::size_t>(m)].name;
+            ++count;
+            names += (names.empty() ? "" : ", ") +
+                     (name.empty() ? "mesh " + std::to_string(m) : in_quotes(name));
+        }
+        if (count > 0)
+            out_.findings.push_back(
+                {none_placed ? Severity::note : Severity::warning, "unplaced_meshes",
+                 detail::counted(count, "mesh stands", "meshes stand") +
+                     " in no node of the scene: " + names,
+                 "", none_placed ? "read where their own coordinates put them" : "left out"});
     }
 
     /// A panel of a name that no other has.
@@ -295,14 +294,9 @@ class GltfReader {
                    : std::string();
     }
 
-    void add_part(const Part &part, const glm::dmat4 &world, std::uint32_t panel,
-                  const std::string &where) {
-        take_room(part.corner.size() + part.position.size() * (1 + part.morphed.size()), where);
+    void add_part(const Part &part, std::uint32_t panel) {
         PolygonMesh &mesh = out_.mesh;
         const auto uv_base = static_cast<std::int32_t>(mesh.uv.size());
-        const auto place = [&](const glm::dvec3 &p) {
-            return glm::dvec3(world * glm::dvec4(p, 1.0));
-        };
         // Shapes that other parts have, and this one has not, stay at rest here.
         while (out_.morph_targets.size() < part.morphed.size())
             out_.morph_targets.push_back(mesh.position);
@@ -313,36 +307,26 @@ class GltfReader {
             if (first[i] != i)
                 continue;
             number[i] = static_cast<std::uint32_t>(mesh.position.size());
-            mesh.position.push_back(place(part.position[i]));
+            mesh.position.push_back(part.position[i]);
             for (std::size_t t = 0; t < out_.morph_targets.size(); ++t)
-                out_.morph_targets[t].push_back(
-                    place(t < part.morphed.size() ? part.morphed[t][i] : part.position[i]));
+                out_.morph_targets[t].push_back(t < part.morphed.size() ? part.morphed[t][i]
+                                                                        : part.position[i]);
         }
         mesh.uv.insert(mesh.uv.end(), part.uv.begin(), part.uv.end());
-        const bool mirrored = glm::determinant(glm::dmat3(world)) < 0.0;
-        for (std::size_t c = 0; c < part.corner.size(); c += 3) {
+        for (std::size_t c = 0; c < part.corner.size(); ++c) {
+            const std::uint32_t v = part.corner[c];
+            mesh.corner_position.push_back(number[first[v]]);
+            mesh.corner_uv.push_back(part.uv.empty() ? -1 : uv_base + static_cast<std::int32_t>(v));
+            if (c % 3 != 2)
+                continue;
             look_at_stop(progress_, c / 3);
-            for (const std::size_t k : {c, c + (mirrored ? 2 : 1), c + (mirrored ? 1 : 2)}) {
-                const std::uint32_t v = part.corner[k];
-                mesh.corner_position.push_back(number[first[v]]);
-                mesh.corner_uv.push_back(part.uv.empty() ? -1
-                                                         : uv_base + static_cast<std::int32_t>(v));
-            }
             mesh.face_offset.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
             mesh.face_panel.push_back(panel);
         }
-        if (part.hint)
-            add_hint(part, panel);
-    }
-
-    void add_hint(const Part &part, std::uint32_t panel) {
-        FabricHint hint = *part.hint;
-        hint.panel = out_.mesh.panel_name[panel];
-        if (!part.tangent.empty() && !part.uv.empty()) {
-            const TangentFit fit = fit_tangents(part);
-            hint.thread_angle = fit.angle + fit.side * hint.thread_angle;
+        if (part.hint) {
+            out_.hints.push_back(*part.hint);
+            out_.hints.back().panel = mesh.panel_name[panel];
         }
-        out_.hints.push_back(std::move(hint));
     }
 
     const tinygltf::Model &model_;
@@ -350,6 +334,9 @@ class GltfReader {
     const Progress &progress_;
     std::size_t room_; ///< corners that may still be added
     MeshFile out_;
+    GltfNodes nodes_;
+    std::set<int> placed_; ///< meshes that stand in a node
+    GltfAlpha alpha_;
     std::map<std::string, int> uses_; ///< of panel names
 };
 

@@ -14,9 +14,12 @@ namespace tsuya::garment {
 /// of the base colour texture after KHR_texture_transform, else TEXCOORD_0, with v turned to run
 /// upwards (glTF counts it down), so that UVs that are not mirrored stay so. A panel is one
 /// primitive of one node; vertices of a panel at exactly one place are one vertex. Morph targets
-/// are shapes with one target at full weight. Anisotropy and sheen are read as hints; where the
-/// file has TANGENT, the direction is counted from it, else from +u. Images, skins, cameras, lines
-/// and points are left aside.
+/// are shapes with one target at full weight. Skins are applied as the joints stand in the file.
+/// Anisotropy and sheen are read as hints; where the file has TANGENT, the direction is counted
+/// from it, else from +u. Meshes that stand in no node are findings (`unplaced_meshes`), read where
+/// no mesh stands in one; so are alpha modes (`alpha_not_shown`). Quantised attributes, Draco and
+/// meshopt compression are read; another required extension, unless it is one of materials,
+/// textures or lights, is an Error. Images, cameras, lines and points are left aside.
 ///
 /// Counts are checked against the bytes that the file has before anything is allocated; buffers
 /// may come from the file's own folder alone.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/garment/report.h"
 #include "tsuya/sdk/progress.h"
 
 namespace tsuya::garment {
@@ -34,6 +35,7 @@ struct MeshFile {
     std::vector<FabricHint> hints{}; ///< of panels whose material states anisotropy or sheen
     /// Further shapes of the same topology, each as long as `mesh.position` and in its units.
     std::vector<std::vector<glm::dvec3>> morph_targets{};
+    std::vector<Finding> findings{}; ///< what the file has and the mesh has not
 };
 
 /// Extensions that read_mesh takes, lower case, with the dot.
