@@ -44,7 +44,7 @@ GarmentFrames read_frames(const std::filesystem::path &first,
 }
 
 struct AnimatedGarment::State {
-    double metres_per_unit;
+    Options options;
     std::string where;
     std::size_t vertices;
     LoadSteps steps;
@@ -52,9 +52,8 @@ struct AnimatedGarment::State {
 
 AnimatedGarment::AnimatedGarment(const MeshFile &file, const Options &options,
                                  const std::string &where, const Progress &progress) {
-    state_ =
-        std::make_unique<State>(State{options.metres_per_unit, where, file.mesh.position.size(),
-                                      load_steps(file, options, where, progress)});
+    state_ = std::make_unique<State>(State{options, where, file.mesh.position.size(),
+                                           load_steps(file, options, where, progress)});
     state_->steps.subdivider.expect_frames(progress);
 }
 
@@ -71,7 +70,7 @@ Surface AnimatedGarment::frame(const std::vector<glm::dvec3> &positions) {
                      state_->where, "expected the topology of the first frame"});
     std::vector<glm::dvec3> metres = positions;
     for (glm::dvec3 &p : metres)
-        p *= state_->metres_per_unit;
+        p = in_metres(state_->options, p);
     LimitMesh limit =
         state_->steps.subdivider.evaluate(state_->steps.recipe.apply(std::move(metres)));
     FrameReport report;

@@ -6,6 +6,7 @@
 
 #include "load_steps.h"
 #include "repair/mesh_repair.h"
+#include "tsuya/garment/check.h"
 #include "tsuya/garment/mesh_file.h"
 #include "tsuya/sdk/error.h"
 
@@ -90,6 +91,20 @@ double metres_per(std::string_view unit) {
                  accepted_names(unit, names)});
 }
 
+UpAxis up_axis(std::string_view name) {
+    if (name == "y")
+        return UpAxis::y;
+    if (name == "z")
+        return UpAxis::z;
+    throw Error({"'" + std::string(name) + "' is not an axis that may be up", "up",
+                 "expected one of: y, z"});
+}
+
+glm::dvec3 in_metres(const Options &options, const glm::dvec3 &point) {
+    const glm::dvec3 p = options.metres_per_unit * point;
+    return options.up == UpAxis::z ? glm::dvec3(p.x, p.z, -p.y) : p;
+}
+
 namespace {
 
 LoadSteps run_steps(const PolygonMesh &mesh, const Options &options,
@@ -98,7 +113,7 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options,
     check_indices(mesh, where);
     PolygonMesh metres = mesh;
     for (glm::dvec3 &p : metres.position)
-        p *= options.metres_per_unit;
+        p = in_metres(options, p);
     Prepared prepared = MeshRepair(std::move(metres), options.seams, options.want_frames,
                                    options.frames.plain, progress)
                             .run();
@@ -126,6 +141,8 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options,
     out.report.repaired_frames = frame_report.repaired;
     out.report.repaired_area_share = frame_report.repaired_area_share;
     find_repairs(out.report);
+    if (const auto upright = find_up_axis(out.report); upright && !options.up)
+        out.report.findings.push_back(*upright);
     out.report.findings.insert(out.report.findings.end(), of_file.begin(), of_file.end());
     if (options.strict)
         refuse_warnings(out.report, where);

@@ -21,7 +21,7 @@ using detail::counted;
 // [doc:command]
 struct GarmentCheck final : Command {
     std::filesystem::path mesh{};
-    std::string unit = "m";
+    std::string unit = "m", up{};
     garment::SeamOptions seams{};
     std::optional<double> metres_per_uv{};
     bool json = false, strict = false;
@@ -29,6 +29,7 @@ struct GarmentCheck final : Command {
     void options(Options &o) override {
         o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
         add_unit(o, unit, "length unit of the mesh");
+        add_up(o, up);
         add_sewing_tolerance(o, seams.tolerance);
         add_uv_scale(o, metres_per_uv);
         o.flag("--json", &json, "print the report as JSON");
@@ -38,12 +39,15 @@ struct GarmentCheck final : Command {
     // [/doc:command]
 
     Status run(Console &console) override {
-        const double metres = garment::metres_per(unit);
+        const garment::Options settings{.metres_per_unit = garment::metres_per(unit),
+                                        .up = stated_up(up)};
         garment::MeshFile read = garment::read_mesh(mesh, console.progress());
         for (glm::dvec3 &p : read.mesh.position)
-            p *= metres;
+            p = garment::in_metres(settings, p);
         garment::Report report =
             garment::check(std::move(read.mesh), seams, console.progress(), metres_per_uv);
+        if (const auto upright = garment::find_up_axis(report); upright && !settings.up)
+            report.findings.push_back(*upright);
         report.findings.insert(report.findings.end(), read.findings.begin(), read.findings.end());
         if (json)
             std::cout << json_of(report).text() << "\n";

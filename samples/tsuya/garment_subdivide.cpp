@@ -16,7 +16,7 @@ namespace {
 
 struct GarmentSubdivide final : Command {
     std::filesystem::path mesh{}, output{};
-    std::string unit = "m", grain{};
+    std::string unit = "m", up{}, grain{};
     int level = 1;
     std::optional<double> tolerance{};
     double seam_crease = 0, fold_crease = 0, fold_angle_deg = 60;
@@ -32,6 +32,7 @@ struct GarmentSubdivide final : Command {
             .required()
             .result({".obj", ".ply"});
         add_unit(o, unit, "length unit of the mesh");
+        add_up(o, up);
         const Option &levels =
             o.option("--level", &level, "N", "level of subdivision: each edge is cut into 2^N")
                 .range(0, 8);
@@ -63,6 +64,7 @@ struct GarmentSubdivide final : Command {
     Status run(Console &console) override {
         scene::check_output_file(output);
         const garment::Options settings{.metres_per_unit = garment::metres_per(unit),
+                                        .up = stated_up(up),
                                         .metres_per_uv = metres_per_uv,
                                         .seams = seams,
                                         .subdivide = {.level = level,

@@ -41,6 +41,15 @@ void add_unit(Options &options, std::string &unit, std::string help) {
     options.option("--unit", &unit, "UNIT", std::move(help)).one_of({"m", "dm", "cm", "mm", "in"});
 }
 
+void add_up(Options &options, std::string &up) {
+    options.option("--up", &up, "AXIS", "axis of the file that points upwards; y if not given")
+        .one_of({"y", "z"});
+}
+
+std::optional<garment::UpAxis> stated_up(const std::string &up) {
+    return up.empty() ? std::nullopt : std::optional(garment::up_axis(up));
+}
+
 void add_threads(Options &options, int &threads) {
     options.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
         .range(0, 4096);

@@ -2,11 +2,13 @@
 /// \file
 /// Options that several commands have.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "options.h"
 #include "tsuya/color/config.h"
+#include "tsuya/garment/garment.h"
 
 namespace tsuya::program {
 
@@ -28,6 +30,11 @@ void add_uv_scale(Options &options, std::optional<double> &metres_per_uv);
 
 /// `--unit`. \param help what has the unit
 void add_unit(Options &options, std::string &unit, std::string help);
+
+/// `--up y|z`, empty where it is not stated
+void add_up(Options &options, std::string &up);
+/// What `--up` says; nullopt where it is not given.
+std::optional<garment::UpAxis> stated_up(const std::string &up);
 
 /// The names of models, for Option::one_of. \param more one more value, where not empty
 std::vector<std::string> model_choices(const std::string &more = {});

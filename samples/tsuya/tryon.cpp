@@ -21,7 +21,7 @@ struct TryOn final : Command {
     scene::TryOn job{};
     std::filesystem::path garment{}, data{};
     std::vector<std::string> fabrics{kDefaultFabric}, backs{};
-    std::string grain{};
+    std::string grain{}, up{};
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
@@ -59,6 +59,7 @@ struct TryOn final : Command {
                     Problem{"a body without a garment", "", "expected --garment or --frames"});
         });
         add_unit(o, job.unit, "length unit of the meshes");
+        add_up(o, up);
         const Option &level =
             o.option("--level", &job.level, "N", "level of subdivision: each edge is cut into 2^N")
                 .range(0, 8);
@@ -145,6 +146,7 @@ struct TryOn final : Command {
         else if (!dye->given && read_fabric(job.fabric, console.progress()).colours.any_dye())
             job.dyes.clear(); // its own
         job.invented_grain = parse_grain(grain);
+        job.up = stated_up(up);
         job.look = look.look();
         job.render.stop.relative_error = error;
         if (samples)

@@ -38,6 +38,44 @@ TEST(ForeignMesh, AKoreanNameIsShownEscaped) {
     EXPECT_NE(report.find("\\\\xBE\\\\xD5"), std::string::npos) << report;
 }
 
+// A tube along z with two openings, 0.6 m high.
+std::string tube_along_z() {
+    std::string text;
+    const auto number = [](double value) { return " " + std::to_string(value); };
+    for (int ring = 0; ring <= 3; ++ring)
+        for (int i = 0; i < 8; ++i)
+            text += "v" + number(0.2 * std::cos(i * kPi / 4)) +
+                    number(0.2 * std::sin(i * kPi / 4)) + number(0.2 * ring) + "\n";
+    for (int ring = 0; ring < 3; ++ring)
+        for (int i = 0; i < 8; ++i) {
+            const int a = 8 * ring + i + 1, b = 8 * ring + (i + 1) % 8 + 1;
+            for (const int v : {a, b, b + 8, a + 8})
+                text += (v == a ? "f " : " ") + std::to_string(v);
+            text += "\n";
+        }
+    return text;
+}
+
+TEST(ForeignMesh, ZUpIsFoundAndCanBeStated) {
+    const Scratch scratch;
+    const std::string mesh = scratch.write("tube.obj", tube_along_z()).string();
+    const Outcome found = run_program({"garment", "check", mesh}, scratch.folder());
+    EXPECT_NE(found.out.find("warning probably_z_up: "), std::string::npos) << found.out;
+    EXPECT_NE(found.out.find("--up z"), std::string::npos);
+    const Outcome stated =
+        run_program({"garment", "check", mesh, "--up", "z", "--json"}, scratch.folder());
+    ASSERT_EQ(stated.status, 0) << stated.err;
+    EXPECT_EQ(stated.out.find("probably_z_up"), std::string::npos);
+    const std::string fine = (scratch.folder() / "fine.obj").string();
+    ASSERT_EQ(run_program({"garment", "subdivide", mesh, "-o", fine, "--up", "z", "--level", "0",
+                           "--grain", "vertical"},
+                          scratch.folder())
+                  .status,
+              0);
+    const Outcome turned = run_program({"garment", "check", fine}, scratch.folder());
+    EXPECT_NE(turned.out.find(" x 0.6 x "), std::string::npos) << turned.out;
+}
+
 // A satin-like cloth under light from straight above, with a body of some reflectance.
 double cloth_value(double theta_deg, double phi_deg, double body) {
     const double theta = theta_deg * kDegree, phi = phi_deg * kDegree;

@@ -147,7 +147,7 @@ TEST(SceneFile, ReadsEveryKey) {
         "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\ntransmittance = 0.2\nweft_tint = \"#ff0000\"\n"
         "warp_dye = 0.3\nlustre = \"dull\"\ndelustre = 0.4\n"
         "warp_tint = \"flat.csv\"\nspecular_tint = 0.9\n[fabrics.b]\nreflectance = 0.25\n"
-        "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nlevel = 3\n"
+        "[garments.g]\nmesh = \"cloth.obj\"\nfabric = \"b\"\nunit = \"mm\"\nup = \"z\"\nlevel = 3\n"
         "tolerance_px = 0.5\nsewing_tolerance_mm = 0.25\nstrict = true\nmax_degenerate_area = "
         "0.5\nseam_crease = 3\n"
         "fold_crease = 4\nfold_angle_deg = 30\ntranslate = [1, 2, 3]\nvisible = "
@@ -181,6 +181,7 @@ TEST(SceneFile, ReadsEveryKey) {
     const MeshEntry &garment = file.garments.at(0);
     EXPECT_EQ(garment.fabric, 1u);
     EXPECT_EQ(garment.options.metres_per_unit, 0.001);
+    EXPECT_EQ(garment.options.up, garment::UpAxis::z);
     EXPECT_EQ(garment.options.subdivide.level, 3);
     EXPECT_EQ(garment.tolerance_px, 0.5);
     EXPECT_TRUE(garment.options.strict);
@@ -278,6 +279,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"TwoNumbers", "[0, 0.3, 0]", "[0, 0.3]", "11:10", "2 numbers", "three"},
         BadInput{"UnknownPanel", "fabric = \"silk\"", "fabric = \"silk\"\ngrain.sleeve = 3", "9:7",
                  "sleeve", "panel"},
+        BadInput{"UnknownUp", "fabric = \"silk\"", "fabric = \"silk\"\nup = \"x\"", "9:6",
+                 "not an axis", "y, z"},
         BadInput{"UnknownUnit", "fabric = \"silk\"", "fabric = \"silk\"\nunit = \"feet\"", "9:8",
                  "feet", "mm"},
         BadInput{"Channels", "samples_per_pixel = 4", "channels = 12", "16:12", "12 channels",

@@ -68,8 +68,9 @@ void find_units(const Report &report, Findings &findings) {
     const std::string unit = likely_unit(height);
     findings.add(
         Severity::warning, "unusual_size", "the mesh measures " + number(height) + " m at most",
-        unit.empty() ? "kept; state the unit of the file if it is another"
-                     : "kept; if the file is in " + unit + " and was read in m, state that unit");
+        unit.empty() ? "kept; state the unit of the file if it is another (--unit)"
+                     : "kept; if it was read in metres, the file is probably in " + unit +
+                           ": state --unit " + unit + ", in a scene unit = \"" + unit + "\"");
 }
 
 void find_topology(const Report &r, Findings &f) {
@@ -198,6 +199,22 @@ void MeshRepair::list_findings() {
     if (report_.panels == 0)
         findings.add(Severity::note, "no_panels", "the file names no group, object or material",
                      "UV islands stand for panels");
+}
+
+std::optional<Finding> find_up_axis(const Report &report) {
+    constexpr double kLeastApart = 0.5, kMostAside = 0.2;
+    const glm::dvec3 size = report.upper - report.lower;
+    if (report.openings.size() < 2 || !(size.z > size.y))
+        return std::nullopt;
+    const glm::dvec3 between = report.openings[1].centre - report.openings[0].centre;
+    const double apart = std::abs(between.z), aside = std::hypot(between.x, between.y);
+    if (apart < kLeastApart * size.z || aside > kMostAside * apart)
+        return std::nullopt;
+    return Finding{.severity = Severity::warning,
+                   .key = "probably_z_up",
+                   .what = "the two longest openings lie above each other along z, as hem and neck "
+                           "do where z is up",
+                   .action = "read with y up; state --up z or --up y, in a scene up = \"z\""};
 }
 
 } // namespace tsuya::garment

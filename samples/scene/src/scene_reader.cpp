@@ -232,6 +232,8 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         if (const auto unit = section.text("unit"))
             note(section, "unit",
                  [&] { entry.options.metres_per_unit = garment::metres_per(*unit); });
+        if (const auto up = section.text("up"))
+            note(section, "up", [&] { entry.options.up = garment::up_axis(*up); });
         entry.options.subdivide.level = section.integer("level", 0, 8).value_or(1);
         if (const auto tolerance_mm = section.number("tolerance_mm", kSmallest, kLargest))
             entry.options.subdivide.tolerance = 1e-3 * *tolerance_mm;

@@ -190,7 +190,7 @@ struct Stage {
 /// Places of all vertices of faces in all further frames, metres.
 std::vector<glm::dvec3> frame_points_of(const garment::PolygonMesh &mesh,
                                         const std::vector<std::vector<glm::dvec3>> &further,
-                                        double metres_per_unit) {
+                                        const garment::Options &options) {
     std::vector<bool> used(mesh.position.size());
     for (const std::uint32_t v : mesh.corner_position)
         used[v] = true;
@@ -198,7 +198,7 @@ std::vector<glm::dvec3> frame_points_of(const garment::PolygonMesh &mesh,
     for (const std::vector<glm::dvec3> &shape : further)
         for (std::size_t v = 0; v < shape.size(); ++v)
             if (used[v])
-                points.push_back(metres_per_unit * shape[v]);
+                points.push_back(garment::in_metres(options, shape[v]));
     return points;
 }
 
@@ -207,6 +207,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     Scene &scene = stage.shown.scene;
     const Cloths cloths(job, progress);
     garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
+                             .up = job.up,
                              .seams = job.seams,
                              .subdivide = {.level = job.level, .tolerance = job.tolerance},
                              .frames = {.invented_grain = job.invented_grain,
@@ -241,8 +242,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
                                                .options = options,
                                                .tolerance_px = job.tolerance_px}));
     scene.objects.push_back(std::move(dressing).object("garment", {0}));
-    stage.meshes.add_points(
-        frame_points_of(stage.meshes.file(0).mesh, stage.further, options.metres_per_unit));
+    stage.meshes.add_points(frame_points_of(stage.meshes.file(0).mesh, stage.further, options));
     if (!job.body.empty())
         add_object(scene, "body",
                    stage.meshes.add({.file = garment::read_mesh(job.body, progress),

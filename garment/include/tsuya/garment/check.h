@@ -19,6 +19,11 @@ namespace tsuya::garment {
 Report check(PolygonMesh metres, const SeamOptions &options = {}, const Progress &progress = {},
              const std::optional<double> &metres_per_uv = {});
 
+/// A finding `probably_z_up` where the mesh stands upright along z: it is longer along z than along
+/// y, and of its two longest openings (hem and neck, hem and waist) one lies above the other along
+/// z, apart by half of the mesh or more, and aside by a fifth of that at most.
+std::optional<Finding> find_up_axis(const Report &report);
+
 /// A mesh that is ready to be subdivided, and what was done to it.
 struct Prepared {
     PolygonMesh mesh{}; ///< manifold, oriented, seams joined

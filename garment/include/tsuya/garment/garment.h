@@ -20,9 +20,15 @@
 
 namespace tsuya::garment {
 
+/// Which axis of a file points upwards.
+enum class UpAxis { y, z };
+
 /// How a file is read. Everything has a usable default.
 struct Options {
     double metres_per_unit = 1.0; ///< length of one unit of the file, see metres_per
+    /// Files with z up are turned by a quarter about x, so that their -y faces to the front.
+    /// nullopt: y, with a finding `probably_z_up` where the openings of the mesh say otherwise.
+    std::optional<UpAxis> up{};
     /// Metres of cloth per unit of UV. nullopt: 1 if the mesh measures 0.5 to 2 (it is in metres),
     /// else the median that the mesh measures, with a finding `uv_scale_measured`.
     std::optional<double> metres_per_uv{};
@@ -43,6 +49,12 @@ struct LoadedGarment {
 
 /// Metres of one `unit`: `m`, `dm`, `cm`, `mm`, `in`. Throws Error for another name.
 double metres_per(std::string_view unit);
+
+/// The axis called `y` or `z`. Throws Error for another name.
+UpAxis up_axis(std::string_view name);
+
+/// A point of a file in metres, with y up.
+glm::dvec3 in_metres(const Options &options, const glm::dvec3 &point);
 
 /// Reads (see read_mesh), checks and repairs, joins the seams, subdivides, and adds frames.
 /// Throws Error naming the file (and line:column), and Interrupted where `progress` says stop.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tsuya/color/config.h"
+#include "tsuya/garment/garment.h"
 #include "tsuya/garment/report.h"
 #include "tsuya/garment/seams.h"
 #include "tsuya/scene/picture.h"
@@ -58,6 +59,7 @@ struct TryOn {
     double max_degenerate_area = 0.05;      ///< of the garment, see FrameOptions
     bool strict = false;                    ///< a warning about the garment is an Error
     std::string unit = "m";                 ///< of garment and body, see garment::metres_per
+    std::optional<garment::UpAxis> up{};    ///< of garment and body, see garment::Options
     int level = 1;                          ///< of subdivision, 0 to 8
     /// One render and one row of the sheet each, see parse_dye. Empty: the fabric's own dye.
     std::vector<std::string> dyes{"white", "crimson"};
