@@ -94,6 +94,8 @@ Json json_of(const garment::Report &r) {
             {"triangles", r.triangles},
             {"quads", r.quads},
             {"ngons", r.ngons},
+            {"concave_faces", r.concave_faces},
+            {"crossed_faces", r.crossed_faces},
             {"panels", r.panels},
             {"parts", r.parts},
             {"parts_before", r.parts_before},

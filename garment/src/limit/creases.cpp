@@ -11,6 +11,9 @@
 namespace tsuya::garment {
 namespace {
 
+// Of edges in one plane: straight down to the finest level.
+constexpr double kStraight = 9.0;
+
 using FacePair = std::pair<std::uint32_t, std::uint32_t>;
 
 // Faces of all corners of a vertex, a face once for each corner.
@@ -62,10 +65,24 @@ std::vector<bool> near_tangles(const PolygonMesh &mesh, const EdgeTable &edges) 
 
 Creases find_creases(const PolygonMesh &mesh, const SubdivideOptions &options) {
     Creases creases;
-    if (options.seam_crease <= 0.0 && options.fold_crease <= 0.0)
+    const bool creased = options.seam_crease > 0.0 || options.fold_crease > 0.0;
+    if (!creased && mesh.hem_corner.empty() && mesh.straight_edge.empty())
         return creases;
     const EdgeTable edges(mesh);
     const std::vector<bool> smooth = near_tangles(mesh, edges);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, double sharpness) {
+        creases.ends.push_back(static_cast<int>(a));
+        creases.ends.push_back(static_cast<int>(b));
+        creases.sharpness.push_back(static_cast<float>(sharpness));
+    };
+    for (const glm::uvec2 &edge : mesh.straight_edge)
+        if (!smooth[edge.x] && !smooth[edge.y])
+            add(edge.x, edge.y, kStraight);
+    for (const std::uint32_t v : mesh.hem_corner)
+        if (!smooth[v])
+            creases.corners.push_back(static_cast<int>(v));
+    if (!creased)
+        return creases;
     edges.for_each_edge([&](std::span<const EdgeUse> uses) {
         if (uses.size() != 2 || smooth[uses[0].low] || smooth[uses[0].high])
             return;
@@ -80,9 +97,7 @@ Creases find_creases(const PolygonMesh &mesh, const SubdivideOptions &options) {
             sharpness = std::max(sharpness, options.fold_crease);
         if (sharpness <= 0.0)
             return;
-        creases.ends.push_back(static_cast<int>(a.low));
-        creases.ends.push_back(static_cast<int>(a.high));
-        creases.sharpness.push_back(static_cast<float>(sharpness));
+        add(a.low, a.high, sharpness);
     });
     return creases;
 }

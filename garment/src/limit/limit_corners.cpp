@@ -57,7 +57,8 @@ LimitCorners::LimitCorners(const LimitSurface &surface, const LimitNumbering &nu
         // A hem's regular vertices have 3 triangles or 2 quads; Bfr is exact at fewer too, and
         // inside of Loop surfaces. Two quads inside have no tangent plane.
         const bool regular = hem ? faces <= (loop ? 3 : 2) : loop || faces == 4 || faces < 3;
-        if (!regular && !level.IsVertexNonManifold(v) && !has_crease(level, v))
+        const bool sharp_corner = hem && faces > 1 && level.GetVertexSharpness(v) > 0.0f;
+        if (!regular && !sharp_corner && !level.IsVertexNonManifold(v) && !has_crease(level, v))
             add_vertex(surface, numbering, v);
     }
 }

@@ -96,6 +96,11 @@ Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,
     descriptor.numCreases = static_cast<int>(creases.sharpness.size());
     descriptor.creaseVertexIndexPairs = creases.ends.data();
     descriptor.creaseWeights = creases.sharpness.data();
+    const std::vector<float> corner_sharpness(creases.corners.size(),
+                                              Sdc::Crease::SHARPNESS_INFINITE);
+    descriptor.numCorners = static_cast<int>(creases.corners.size());
+    descriptor.cornerVertexIndices = creases.corners.data();
+    descriptor.cornerWeights = corner_sharpness.data();
     descriptor.numFVarChannels = mesh.uv.empty() ? 0 : 1;
     descriptor.fvarChannels = &channel;
 

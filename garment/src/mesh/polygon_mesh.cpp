@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "mesh/islands.h"
 #include "mesh/valence.h"
@@ -129,46 +131,79 @@ UvIslands uv_islands(const PolygonMesh &mesh) {
     return {std::move(islands.of), islands.count};
 }
 
-void share_equal_uvs(PolygonMesh &mesh) {
-    if (mesh.uv.empty())
-        return;
-    // Corners by vertex, then each corner takes the first index of its vertex with the same value.
-    std::vector<std::uint32_t> start(mesh.position.size() + 1, 0);
-    for (const std::uint32_t v : mesh.corner_position)
-        ++start[v + 1];
-    for (std::size_t v = 1; v < start.size(); ++v)
-        start[v] += start[v - 1];
+namespace {
+
+/// UVs of the corners of each vertex that were met so far. Vertices of few corners are searched,
+/// the others have a map.
+class SharedUvs {
+  public:
+    explicit SharedUvs(const PolygonMesh &mesh) : mesh_(mesh), start_(mesh.position.size() + 1, 0) {
+        for (const std::uint32_t v : mesh.corner_position)
+            ++start_[v + 1];
+        for (std::size_t v = 1; v < start_.size(); ++v)
+            start_[v] += start_[v - 1];
+        seen_.resize(mesh.corner_position.size());
+        end_.assign(start_.begin(), start_.end() - 1);
+    }
+
+    /// The first UV index of this vertex and panel with the same value.
+    std::int32_t first(std::uint32_t vertex, std::uint32_t panel, std::int32_t uv) {
+        constexpr std::uint32_t kSearched = 64;
+        const glm::dvec2 &value = mesh_.uv[static_cast<std::size_t>(uv)];
+        if (start_[vertex + 1] - start_[vertex] > kSearched)
+            return many_.try_emplace({vertex, panel, value.x, value.y}, uv).first->second;
+        for (std::uint32_t i = start_[vertex]; i < end_[vertex]; ++i)
+            if (seen_[i].panel == panel && mesh_.uv[static_cast<std::size_t>(seen_[i].uv)] == value)
+                return seen_[i].uv;
+        seen_[end_[vertex]++] = {uv, panel};
+        return uv;
+    }
+
+  private:
     struct Seen {
         std::int32_t uv;
         std::uint32_t panel;
     };
-    std::vector<Seen> seen(mesh.corner_position.size());
-    std::vector<std::uint32_t> seen_end(start.begin(), start.end() - 1);
+    const PolygonMesh &mesh_;
+    std::vector<std::uint32_t> start_, end_; ///< of each vertex in `seen_`
+    std::vector<Seen> seen_;
+    std::map<std::tuple<std::uint32_t, std::uint32_t, double, double>, std::int32_t> many_;
+};
+
+} // namespace
+
+void share_equal_uvs(PolygonMesh &mesh) {
+    if (mesh.uv.empty())
+        return;
+    SharedUvs shared(mesh);
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
-            const std::int32_t uv = mesh.corner_uv[c];
-            if (uv < 0)
-                continue;
-            const std::uint32_t v = mesh.corner_position[c];
-            bool found = false;
-            for (std::uint32_t i = start[v]; i < seen_end[v] && !found; ++i) {
-                found = seen[i].panel == mesh.face_panel[f] &&
-                        mesh.uv[static_cast<std::size_t>(seen[i].uv)] ==
-                            mesh.uv[static_cast<std::size_t>(uv)];
-                if (found)
-                    mesh.corner_uv[c] = seen[i].uv;
-            }
-            if (!found)
-                seen[seen_end[v]++] = {uv, mesh.face_panel[f]};
-        }
+        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c)
+            if (mesh.corner_uv[c] >= 0)
+                mesh.corner_uv[c] =
+                    shared.first(mesh.corner_position[c], mesh.face_panel[f], mesh.corner_uv[c]);
 }
 
-void check_valence(const PolygonMesh &mesh) {
+namespace {
+
+void check_corners_of_vertices(const PolygonMesh &mesh, std::uint32_t most) {
     std::vector<std::uint32_t> valence(mesh.position.size(), 0);
     for (const std::uint32_t v : mesh.corner_position)
-        if (++valence[v] >= kMaxValence)
+        if (++valence[v] >= most)
             throw Error({"vertex " + std::to_string(v) + " joins too many faces", "mesh",
-                         "expected fewer than " + std::to_string(kMaxValence)});
+                         "expected fewer than " + std::to_string(most)});
 }
+
+} // namespace
+
+void check_sizes(const PolygonMesh &mesh) {
+    check_corners_of_vertices(mesh, kMaxFileValence);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        if (mesh.face_size(f) >= kMaxFaceSize)
+            throw Error({"face " + std::to_string(f) + " has " +
+                             detail::counted(mesh.face_size(f), "corner"),
+                         "mesh", "expected fewer than " + std::to_string(kMaxFaceSize)});
+}
+
+void check_valence(const PolygonMesh &mesh) { check_corners_of_vertices(mesh, kMaxValence); }
 
 } // namespace tsuya::garment

@@ -89,6 +89,11 @@ void find_topology(const Report &r, Findings &f) {
     f.count(r.file.flipped_faces + r.joined.flipped_faces, warning, "flipped_faces",
             "face is turned against its", "faces are turned against their", "neighbours",
             "turned over");
+    f.count(r.concave_faces, note, "concave_faces", "face is", "faces are",
+            "concave, and subdivision would fold them", "cut into triangles");
+    f.count(r.crossed_faces, warning, "crossed_faces", "concave face crosses",
+            "concave faces cross", "other edges of the mesh or of their own",
+            "kept, and folded by subdivision; cut them in the program that made them");
     f.count(r.file.unorientable_edges + r.joined.unorientable_edges, warning, "unorientable_edges",
             "edge lies", "edges lie", "on a surface that has one side only", "cut open");
     f.count(r.joined.non_manifold_edges, note, "layered_seams", "edge joins", "edges join",

@@ -11,6 +11,7 @@ namespace tsuya::garment {
 
 Prepared MeshRepair::run() {
     begin_stage(progress_, "garment: repair");
+    check_sizes(mesh_);
     measure_file();
     make_manifold();
     if (mesh_.face_count() == 0)
@@ -30,11 +31,13 @@ Prepared MeshRepair::run() {
     measure_joined();
     measure_uv();
     cut_folded_islands();
+    divide_concave_faces();
     list_findings();
     return {std::move(mesh_), std::move(report_), std::move(recipe_)};
 }
 
 Prepared MeshRepair::run_make_manifold() {
+    check_sizes(mesh_);
     make_manifold();
     return {std::move(mesh_), std::move(report_), std::move(recipe_)};
 }

@@ -2,9 +2,11 @@
 /// \file
 /// From the mesh of a file to one that can be subdivided.
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/edges.h"
@@ -91,6 +93,15 @@ class MeshRepair {
     /// Where a UV island folds over itself, its mirrored faces become islands of their own: across
     /// the fold the surface's derivatives would be those of neither side (mirrored_uv.cpp).
     void cut_folded_islands();
+
+    // Faces that subdivision would fold (concave.cpp).
+    void divide_concave_faces();
+    using Divided = std::vector<std::pair<std::size_t, std::vector<std::array<std::uint32_t, 3>>>>;
+    /// Vertices of one face alone are corners of the hem, also where its triangles meet in them.
+    void keep_hem_corners(const Divided &divided);
+    /// Edges between triangles of nearly one plane.
+    void keep_straight_edges(const Divided &divided);
+    void replace_faces(const Divided &divided);
 
     // The result (measure.cpp, findings.cpp).
     void measure_joined();

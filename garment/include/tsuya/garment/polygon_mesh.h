@@ -30,6 +30,10 @@ struct PolygonMesh {
     std::vector<std::uint32_t> face_panel{};      ///< per face, into `panel_name`
     std::vector<std::string> panel_name{};        ///< no two alike; empty: the file names none
     std::vector<PanelLabel> panel_label{};        ///< as `panel_name`, or empty
+    /// What concave faces leave where they were cut into triangles (see prepare): vertices of the
+    /// hem that stay sharp corners, and edges between triangles of one plane, which stay straight.
+    std::vector<std::uint32_t> hem_corner{};
+    std::vector<glm::uvec2> straight_edge{};
 
     /// Number of faces.
     std::size_t face_count() const { return face_offset.size() - 1; }

@@ -95,6 +95,8 @@ struct Report {
     std::size_t triangles = 0;
     std::size_t quads = 0;
     std::size_t ngons = 0;                ///< faces of five corners or more
+    std::size_t concave_faces = 0;        ///< cut into triangles
+    std::size_t crossed_faces = 0;        ///< concave too, but cross themselves; kept
     std::size_t panels = 0;               ///< named panels; 0: none named
     std::size_t parts = 0;                ///< connected parts after joining
     std::size_t parts_before = 0;         ///< connected parts in the file
