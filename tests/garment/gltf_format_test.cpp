@@ -348,6 +348,12 @@ std::string meshopt_square(bool damaged) {
     return glb(json, packed);
 }
 
+TEST(GltfMeshopt, ABinaryChunkThatIsCutShortIsAnError) {
+    const std::string good = meshopt_square(false);
+    for (std::size_t cut = good.size() - 40; cut < good.size(); ++cut)
+        EXPECT_NE(problem(good.substr(0, cut)), "no error") << cut;
+}
+
 TEST(GltfMeshopt, IsReadAlsoWithoutAFallback) {
     const PolygonMesh m = parse_gltf(meshopt_square(false), "m.glb").mesh;
     const PolygonMesh plain = parse_gltf(glb(square_json(), square_buffer()), "m.glb").mesh;

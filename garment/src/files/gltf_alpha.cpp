@@ -39,7 +39,9 @@ void GltfAlpha::report(const tinygltf::Model &model, std::vector<Finding> &findi
             {Severity::warning, "alpha_not_shown",
              "material " + name + " of " + (panels.size() == 1 ? "panel " : "panels ") + names +
                  " has the alphaMode " + material.alphaMode,
-             "", "its holes and its transparency are not read: shown as whole cloth"});
+             "",
+             "its holes and its transparency are not read: shown as whole cloth; a scene may state "
+             "opacity = { picture, width_m } for the panel"});
     }
 }
 

@@ -91,6 +91,20 @@ std::string_view json_text(std::string_view bytes, const std::string &name) {
     return bytes.substr(kHeader, length);
 }
 
+/// Of a GLB: that its second chunk is as long as it says, if it has one. tinygltf reads on behind
+/// the end of one that is not.
+void check_binary_chunk(std::string_view bytes, const std::string &name) {
+    constexpr std::size_t kChunkHeader = 8;
+    const std::string_view json = json_text(bytes, name);
+    const std::string_view rest =
+        bytes.substr(static_cast<std::size_t>(json.data() - bytes.data()) + json.size());
+    std::uint32_t length = 0;
+    if (rest.size() >= kChunkHeader)
+        std::memcpy(&length, rest.data(), sizeof length);
+    if (!rest.empty() && (rest.size() < kChunkHeader || length > rest.size() - kChunkHeader))
+        throw Error({"the file is cut short", name, "expected a whole GLB"});
+}
+
 std::string first_line(const std::string &text) {
     return text.empty() ? "the document is not valid" : text.substr(0, text.find('\n'));
 }
@@ -212,6 +226,8 @@ tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &n
     const std::optional<std::string> changed = without_placeholders(bytes);
     if (changed)
         bytes = *changed;
+    if (is_binary(bytes))
+        check_binary_chunk(bytes, name);
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
         throw Error({"the file is larger than 4 GiB", name, "expected less"});
     Sandbox sandbox{folder, ""};
