@@ -225,6 +225,10 @@ TEST(GltfSkin, BadSkinsAreErrors) {
     const std::vector<float> weights{1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0};
     EXPECT_EQ(problem(skinned_square<std::uint8_t, float>(5121, 5126, weights, 2)),
               "m.glb: node 0: primitive 0: JOINTS_0: vertex 1 names joint 2");
+    EXPECT_EQ(problem(skinned_square<float, float>(5126, 5126, weights, -7.0f)),
+              "m.glb: node 0: primitive 0: JOINTS_0: vertex 1 names joint -7");
+    EXPECT_EQ(problem(skinned_square<float, float>(5126, 5126, weights, 0.5f)),
+              "m.glb: node 0: primitive 0: JOINTS_0: vertex 1 names joint 0.5");
     std::vector<float> none = weights;
     none[8] = 0;
     EXPECT_EQ(problem(skinned_square<std::uint8_t, float>(5121, 5126, none)),

@@ -1,5 +1,8 @@
 #include "files/gltf_skin.h"
 
+#include <cmath>
+
+#include "files/declared_count.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -45,11 +48,13 @@ void add_set(const std::vector<glm::dmat4> &joints, const std::vector<double> &n
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (weights[i] == 0.0)
             continue;
-        if (!(numbers[i] < static_cast<double>(joints.size())))
-            throw Error({"vertex " + std::to_string(i / kPerSet) + " names joint " +
-                             std::to_string(static_cast<std::uint64_t>(numbers[i])),
-                         where, "expected less than " + std::to_string(joints.size())});
-        sum[i / kPerSet] += weights[i] * joints[static_cast<std::size_t>(numbers[i])];
+        const double joint = numbers[i];
+        if (!(joint >= 0.0 && joint < static_cast<double>(joints.size()) &&
+              joint == std::floor(joint)))
+            throw Error(
+                {"vertex " + std::to_string(i / kPerSet) + " names joint " + number_text(joint),
+                 where, "expected a whole number below " + std::to_string(joints.size())});
+        sum[i / kPerSet] += weights[i] * joints[static_cast<std::size_t>(joint)];
         weight[i / kPerSet] += weights[i];
     }
 }
