@@ -1,6 +1,11 @@
+#include <filesystem>
+
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "test_meshes.h"
+#include "tsuya/garment/mesh_file.h"
 #include "tsuya/garment/obj.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -250,6 +255,22 @@ TEST(PolygonMesh, BadIndicesAreErrors) {
     m = test::cube();
     m.face_offset[2] = m.face_offset[1] + 2;
     EXPECT_THROW(check_indices(m, "cube"), Error);
+}
+
+TEST(MeshFile, AFormatOfAnotherProgramIsRefusedWithAWayOut) {
+    for (const char *const extension : {".fbx", ".USDZ", ".zprj"}) {
+        const std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                           ("tsuya-mesh-" + std::to_string(getpid()) + extension);
+        write_file(path, "anything");
+        try {
+            read_mesh(path);
+            ADD_FAILURE() << path;
+        } catch (const Error &error) {
+            EXPECT_NE(error.problems()[0].accepted.find("EXPORT.md"), std::string::npos);
+            EXPECT_EQ(error.problems()[0].where, path.string());
+        }
+        std::filesystem::remove(path);
+    }
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 #include "tsuya/garment/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string_view>
 
 #include "mesh/stop.h"
 #include "tsuya/garment/gltf.h"
@@ -11,6 +13,17 @@
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
+namespace {
+
+/// Scenes, projects and solids that hold garments, but are not read.
+bool is_of_other_programs(const std::string &extension) {
+    constexpr std::array<std::string_view, 14> kKnown = {
+        ".abc", ".usd",   ".usda", ".usdc", ".usdz", ".fbx", ".dae",
+        ".stl", ".blend", ".zprj", ".zpac", ".bw",   ".max", ".ma"};
+    return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
+}
+
+} // namespace
 
 double FabricHint::grain() const { return thread_angle - 0.5 * kPi; }
 
@@ -37,6 +50,11 @@ MeshFile read_mesh(const std::filesystem::path &path, const Progress &progress) 
         throw Error({"there is no such file", path.string(), "expected a mesh"});
     if (std::filesystem::is_directory(path, code))
         throw Error({"it is a folder", path.string(), "expected a mesh"});
+    if (is_of_other_programs(extension))
+        throw Error(
+            {"'" + extension + "' is not a mesh format that is read", path.string(),
+             "expected .obj, .gltf, .glb, .ply or .off: garment/docs/EXPORT.md says how CLO, "
+             "Marvelous Designer, Blender and Browzwear export them"});
     throw Error({extension.empty() ? std::string("the name has no extension")
                                    : "'" + extension + "' is not a mesh format that is read",
                  path.string(), accepted_names(extension, mesh_extensions())});
