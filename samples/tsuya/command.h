@@ -63,6 +63,7 @@ std::unique_ptr<Command> make_fabric_evaluate();
 std::unique_ptr<Command> make_fabric_show();
 std::unique_ptr<Command> make_fabric_paper();
 std::unique_ptr<Command> make_garment_check();
+std::unique_ptr<Command> make_garment_export();
 std::unique_ptr<Command> make_garment_subdivide();
 std::unique_ptr<Command> make_lab_lines();
 std::unique_ptr<Command> make_lab_measure();

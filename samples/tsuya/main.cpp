@@ -23,9 +23,10 @@ constexpr std::array kCommands{
     CommandEntry{"fabric show", "Draw what a fabric reflects, or a weave", make_fabric_show},
     CommandEntry{"fabric paper", "The tables of Takeda et al. beside ours", make_fabric_paper},
     // [doc:command_table]
-    CommandEntry{"garment", "Examine and subdivide meshes", nullptr},
+    CommandEntry{"garment", "Examine, subdivide and export meshes", nullptr},
     CommandEntry{"garment check", "What is wrong with a mesh", make_garment_check},
     // [/doc:command_table]
+    CommandEntry{"garment export", "A dressed garment for viewers of glTF", make_garment_export},
     CommandEntry{"garment subdivide", "The limit surface of a mesh", make_garment_subdivide},
     CommandEntry{"lab", "Drive the measuring rig", nullptr},
     CommandEntry{"lab lines", "The GPIO lines of this computer", make_lab_lines},

@@ -1,12 +1,11 @@
 // tsuya tryon: the main job without a scene file.
 
-#include <algorithm>
 #include <iostream>
 
 #include "command.h"
+#include "fabric_options.h"
 #include "grain_option.h"
 #include "look_options.h"
-#include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/detail/threads.h"
@@ -15,12 +14,10 @@
 namespace tsuya::program {
 namespace {
 
-constexpr const char *kDefaultFabric = "black_satin";
-
 struct TryOn final : Command {
     scene::TryOn job{};
-    std::filesystem::path garment{}, data{};
-    std::vector<std::string> fabrics{kDefaultFabric}, backs{};
+    std::filesystem::path garment{};
+    FabricOptions cloth{};
     std::string grain{}, up{};
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
@@ -33,14 +30,10 @@ struct TryOn final : Command {
         o.option("-o,--output", &job.output, "DIR", "folder for the results").required();
         add_quality(o);
         look.add_to(o);
-        o.option("--data", &data, "DIR", "folder of the sample data");
+        cloth.add_data(o);
         o.example("tsuya tryon --garment dress.obj --fabric black_satin --dye white,indigo "
                   "--lamps D65,A -o out");
-        o.notes("Without --garment: the sample dress on its mannequin.\n"
-                "PANELS is the name of a panel, object, group, material or UV island as `tsuya "
-                "garment check` lists them; * stands for any letters, ? for one: --fabric "
-                "black_satin --fabric \"Button*=plastic\". The last that names a panel counts. "
-                "Panels of their own keep their own dye.");
+        o.notes("Without --garment: the sample dress on its mannequin.\n" + FabricOptions::notes());
     }
 
     void add_garment(Options &o) {
@@ -84,13 +77,7 @@ struct TryOn final : Command {
     }
 
     void add_cloth(Options &o) {
-        o.option("--fabric", &fabrics, "[PANELS=]FABRIC",
-                 "F.fabric.toml, or a name of `tsuya list fabrics`; with PANELS= of some panels "
-                 "alone, see notes; may be given again")
-            .check([this] { check_fabrics(fabrics); });
-        o.option("--back", &backs, "[PANELS=]FABRIC",
-                 "what is seen from behind, such as a lining; may be given again")
-            .check([this] { check_fabrics(backs); });
+        cloth.add_to(o);
         const Option &pattern = o.option("--pattern", &job.pattern, "IMAGE",
                                          "picture printed on the garment's fabric, over its dye");
         o.option("--pattern-width", &job.pattern_width, "METRES",
@@ -134,13 +121,13 @@ struct TryOn final : Command {
             job.frames.erase(job.frames.begin());
         }
         if (garment.empty()) {
-            const scene::TryOn sample = scene::sample_try_on(data_folder());
+            const scene::TryOn sample = scene::sample_try_on(cloth.data_folder(true));
             job.garment = sample.garment;
             job.body = sample.body;
         } else {
             job.garment = garment;
         }
-        take_fabrics();
+        cloth.fill(job);
         if (!dye->given && !job.pattern.empty())
             job.dyes = {"white"};
         else if (!dye->given && read_fabric(job.fabric, console.progress()).colours.any_dye())
@@ -167,69 +154,6 @@ struct TryOn final : Command {
             return kDone;
         console.error("interrupted; the pictures so far are written");
         return kInterrupted;
-    }
-
-    /// `PANELS=FABRIC`, or `FABRIC` for all.
-    struct FabricWord {
-        std::string panels, fabric;
-
-        explicit FabricWord(const std::string &word) {
-            const std::size_t at = word.rfind('=');
-            fabric = at == std::string::npos ? word : word.substr(at + 1);
-            panels = at == std::string::npos ? "" : word.substr(0, at);
-            if (fabric.empty() || (at != std::string::npos && panels.empty()))
-                throw Error({"'" + word + "' has no " + (fabric.empty() ? "fabric" : "panels"), "",
-                             "expected FABRIC, or PANELS=FABRIC"});
-        }
-    };
-
-    void take_fabrics() {
-        const auto find = [&](const std::string &name) {
-            return scene::find_fabric(name, data_folder());
-        };
-        for (const std::string &word : fabrics) {
-            const FabricWord cloth(word);
-            if (cloth.panels.empty())
-                job.fabric = find(cloth.fabric);
-            else
-                job.panels.push_back({.panels = cloth.panels, .fabric = find(cloth.fabric)});
-        }
-        if (job.fabric.empty())
-            job.fabric = find(kDefaultFabric);
-        for (const std::string &word : backs) {
-            const FabricWord cloth(word);
-            if (cloth.panels.empty())
-                job.back = find(cloth.fabric);
-            else
-                job.panels.push_back({.panels = cloth.panels, .back = find(cloth.fabric)});
-        }
-    }
-
-    /// Throws Error for a word that is no cloth, two cloths for all panels, and a name that no
-    /// sample fabric has. Where there is no sample data, the run says so.
-    void check_fabrics(const std::vector<std::string> &words) const {
-        std::size_t for_all = 0;
-        for (const std::string &word : words) {
-            const FabricWord cloth(word);
-            if (cloth.panels.empty() && ++for_all > 1)
-                throw Error({"two fabrics for all panels, the second is " + cloth.fabric, "",
-                             "expected one, and others as PANELS=FABRIC"});
-            std::filesystem::path folder;
-            try {
-                folder = data_folder();
-            } catch (const Error &) {
-                continue;
-            }
-            scene::find_fabric(cloth.fabric, folder);
-        }
-    }
-
-    /// The sample data is needed by names and the sample dress only.
-    std::filesystem::path data_folder() const {
-        const auto is_name = [](const std::string &word) { return !word.ends_with(".toml"); };
-        const bool named = garment.empty() || std::ranges::any_of(fabrics, is_name) ||
-                           std::ranges::any_of(backs, is_name);
-        return named ? scene::data_folder(data) : std::filesystem::path{};
     }
 };
 

@@ -206,5 +206,47 @@ TEST(OutsideData, KhronosSamplesAreRead) {
         check_surface(load(sample(name), {.frames = {.max_degenerate_area = 1.0}}).surface, name);
 }
 
+// What is written is what a viewer reads: places, panels, threads.
+TEST(Gltf, WritesWhatItReadsBack) {
+    const LoadedGarment made =
+        load(test::both(test::panel(3, 2, 0.1), test::panel(2, 2, 0.1, {1, 0, 0})),
+             {.frames = {.grain = {{"panel1", 0.5}}}}, "t");
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("tsuya-" + std::to_string(getpid()) + ".glb");
+    write_glb(path, made.surface,
+              {{.name = "satin", .roughness = 0.3, .anisotropy_strength = 0.8},
+               {.name = "crepe",
+                .roughness = 0.6,
+                .anisotropy_strength = 0.5,
+                .anisotropy_rotation = 0.25 * kPi}},
+              {0, 1});
+    const MeshFile back = read_gltf(path);
+    std::filesystem::remove(path);
+    ASSERT_EQ(back.mesh.panel_name.size(), 2u);
+    EXPECT_EQ(back.mesh.panel_label[0].material, "satin");
+    EXPECT_EQ(back.mesh.panel_label[1].material, "crepe");
+    EXPECT_EQ(back.mesh.face_count(), made.surface.triangle.size());
+    ASSERT_EQ(back.hints.size(), 2u);
+    EXPECT_NEAR(back.hints[0].anisotropy_strength, 0.8, 1e-6);
+    // The highlight is long along the weft, so the warp is the thread that it lies across
+    EXPECT_NEAR(std::remainder(back.hints[0].grain(), kPi), 0, 1e-4);
+    EXPECT_NEAR(std::remainder(back.hints[1].grain() - 0.25 * kPi, kPi), 0, 1e-4);
+    double area = 0;
+    for (std::size_t f = 0; f < back.mesh.face_count(); ++f) {
+        const std::uint32_t c = back.mesh.face_offset[f];
+        const auto place = [&](std::uint32_t k) {
+            return back.mesh.position[back.mesh.corner_position[c + k]];
+        };
+        const auto uv = [&](std::uint32_t k) {
+            return back.mesh.uv[static_cast<std::size_t>(back.mesh.corner_uv[c + k])];
+        };
+        area += 0.5 * glm::cross(place(1) - place(0), place(2) - place(0)).z;
+        const glm::dvec2 s = uv(1) - uv(0), t = uv(2) - uv(0);
+        EXPECT_GT(s.x * t.y - s.y * t.x, 0) << "the UVs are mirrored";
+        EXPECT_NEAR(glm::length(s), glm::length(place(1) - place(0)), 1e-6);
+    }
+    EXPECT_NEAR(area, 0.06 + 0.04, 1e-3);
+}
+
 } // namespace
 } // namespace tsuya::garment

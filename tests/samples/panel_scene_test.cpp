@@ -4,7 +4,9 @@
 
 #include "samples/scratch.h"
 #include "tsuya/color/image_file.h"
+#include "tsuya/garment/mesh_file.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/export.h"
 #include "tsuya/scene/scene_file.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/angle.h"
@@ -181,6 +183,32 @@ TEST_F(PanelScene, TryOn) {
     EXPECT_EQ(scene.fabrics[coat.panels[1].fabric.value].name, "plastic");
     job.panels = {{.panels = "Zip", .fabric = fabric("plastic")}};
     EXPECT_THROW(make_try_on_scene(job), Error);
+}
+
+TEST_F(PanelScene, IsExportedWithItsFabrics) {
+    scratch.write("coat.obj", coat_obj());
+    const auto fabric = [](const char *name) { return find_fabric(name, data_folder()); };
+    const TryOn job{.garment = scratch / "coat.obj",
+                    .fabric = fabric("black_satin"),
+                    .panels = {{.panels = "Button*", .fabric = fabric("plastic")}},
+                    .level = 0,
+                    .dyes = {"#ff0000"}};
+    const std::vector<ExportedFabric> exported = export_glb(job, scratch / "coat.glb");
+    ASSERT_EQ(exported.size(), 2u);
+    EXPECT_EQ(exported[0].name, "black_satin");
+    EXPECT_GT(exported[0].anisotropy_strength, 0.3);
+    EXPECT_GT(exported[0].l2_cos, 0.02);
+    EXPECT_LT(exported[0].l2_cos, 0.6);
+    // Facets are what viewers have
+    EXPECT_EQ(exported[1].name, "plastic");
+    EXPECT_NEAR(exported[1].roughness, std::sqrt(0.08), 1e-9);
+    EXPECT_EQ(exported[1].anisotropy_strength, 0);
+    EXPECT_LT(exported[1].l2_cos, 1e-6);
+    const garment::MeshFile back = garment::read_mesh(scratch / "coat.glb");
+    EXPECT_EQ(back.mesh.panel_name.size(), 3u);
+    EXPECT_EQ(back.mesh.panel_label[2].material, "plastic");
+    EXPECT_THROW(export_glb(job, scratch / "no" / "coat.glb"), Error);
+    EXPECT_FALSE(std::filesystem::exists(scratch / "no"));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tsuya/garment/mesh_file.h"
+#include "tsuya/sdk/surface.h"
 
 namespace tsuya::garment {
 
@@ -30,5 +31,24 @@ MeshFile read_gltf(const std::filesystem::path &path, const Progress &progress =
 /// hold further buffers; empty: no other file is read
 MeshFile parse_gltf(std::string_view bytes, const std::string &name,
                     const std::filesystem::path &folder = {}, const Progress &progress = {});
+
+/// How a viewer shades panels: metallic-roughness without metal, double-sided, with
+/// KHR_materials_ior and KHR_materials_anisotropy [KhrAnisotropy].
+struct GltfMaterial {
+    std::string name{};
+    glm::dvec3 colour{0.5};         ///< linear Rec. 709, 0 to 1
+    double roughness = 0.5;         ///< 0 to 1; the GGX width across the highlight is its square
+    double anisotropy_strength = 0; ///< 0 to 1
+    double anisotropy_rotation = 0; ///< of the long axis of the highlight, radians from the weft
+    double ior = 1.5;               ///< index of refraction, 1 or more
+};
+
+/// Writes a surface as GLB by atomic replacement: a primitive for each panel, with normals,
+/// tangents along the weft and UVs in metres (v counted down, as glTF does). \param
+/// material_of_panel into `materials`, one for each panel Throws Error naming the path if it cannot
+/// be written; Interrupted.
+void write_glb(const std::filesystem::path &path, const Surface &surface,
+               const std::vector<GltfMaterial> &materials,
+               const std::vector<std::size_t> &material_of_panel, const Progress &progress = {});
 
 } // namespace tsuya::garment

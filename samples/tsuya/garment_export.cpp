@@ -1,0 +1,76 @@
+// tsuya garment export: a dressed garment for viewers.
+
+#include <iostream>
+
+#include "command.h"
+#include "fabric_options.h"
+#include "grain_option.h"
+#include "look_options.h"
+#include "tsuya/scene/export.h"
+#include "tsuya/scene/output_file.h"
+
+namespace tsuya::program {
+namespace {
+
+struct GarmentExport final : Command {
+    scene::TryOn job{.dyes = {}};
+    std::filesystem::path output{};
+    FabricOptions cloth{};
+    std::string dye{}, grain{}, up{};
+
+    void options(Options &o) override {
+        o.argument(&job.garment, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
+        o.option("-o,--output", &output, "OUT.glb", "the garment with its fabrics, for viewers")
+            .required()
+            .result({".glb"});
+        cloth.add_to(o);
+        o.option("--dye", &dye, "DYE",
+                 "name of `tsuya list dyes`, #rrggbb, F.csv; white where none is given and the "
+                 "fabric has none")
+            .check([this] {
+                if (!dye.empty())
+                    scene::check_dyes({dye});
+            });
+        add_unit(o, job.unit, "length unit of the mesh");
+        add_up(o, up);
+        o.option("--level", &job.level, "N", "level of subdivision: each edge is cut into 2^N")
+            .range(0, 8);
+        add_sewing_tolerance(o, job.seams.tolerance);
+        add_uv_scale(o, job.metres_per_uv);
+        o.option("--grain", &grain, "DIRECTION",
+                 "warp direction where the mesh has no usable UV: vertical, horizontal, or degrees "
+                 "from the vertical")
+            .check([this] { parse_grain(grain); });
+        cloth.add_data(o);
+        o.example("tsuya garment export dress.obj --fabric black_satin --dye crimson -o dress.glb");
+        o.notes("Viewers have one lobe of facets: its widths along and across the yarns are fitted "
+                "to the fabric's views, and how far it lies from the fabric is printed (l2_cos of "
+                "15 lights). UVs are in metres of cloth. Prints, opacity and backs have no place "
+                "there.\n" +
+                FabricOptions::notes());
+    }
+
+    Status run(Console &console) override {
+        scene::check_output_file(output);
+        cloth.fill(job);
+        job.invented_grain = parse_grain(grain);
+        job.up = stated_up(up);
+        if (!dye.empty())
+            job.dyes = {dye};
+        else if (!read_fabric(job.fabric, console.progress()).colours.any_dye())
+            job.dyes = {"white"};
+        scene::prepare_output_file(output);
+        for (const scene::ExportedFabric &fabric :
+             scene::export_glb(job, output, console.progress()))
+            std::cout << fabric.name << ": roughness " << fabric.roughness << ", anisotropy "
+                      << fabric.anisotropy_strength << ", l2_cos " << fabric.l2_cos << "\n";
+        std::cout << output.string() << "\n";
+        return kDone;
+    }
+};
+
+} // namespace
+
+std::unique_ptr<Command> make_garment_export() { return std::make_unique<GarmentExport>(); }
+
+} // namespace tsuya::program
