@@ -226,6 +226,7 @@ TEST(Gltf, WritesWhatItReadsBack) {
     EXPECT_EQ(back.mesh.panel_label[0].material, "satin");
     EXPECT_EQ(back.mesh.panel_label[1].material, "crepe");
     EXPECT_EQ(back.mesh.face_count(), made.surface.triangle.size());
+    EXPECT_EQ(back.mesh.position.size(), made.surface.position.size()); // each once
     ASSERT_EQ(back.hints.size(), 2u);
     EXPECT_NEAR(back.hints[0].anisotropy_strength, 0.8, 1e-6);
     // The highlight is long along the weft, so the warp is the thread that it lies across

@@ -296,15 +296,25 @@ class GltfReader {
 
     void add_part(const Part &part, std::uint32_t panel) {
         PolygonMesh &mesh = out_.mesh;
-        const auto uv_base = static_cast<std::int32_t>(mesh.uv.size());
         // Shapes that other parts have, and this one has not, stay at rest here.
         while (out_.morph_targets.size() < part.morphed.size())
             out_.morph_targets.push_back(mesh.position);
-        // Vertices that others stand for are not taken over.
+        // Vertices that others stand for are not taken over, nor those of other parts: accessors
+        // may be shared.
         const std::vector<std::uint32_t> first = weld(part);
         std::vector<std::uint32_t> number(part.position.size());
+        std::vector<std::int32_t> uv_number(part.uv.size());
+        std::vector<bool> used(part.position.size()), placed(part.position.size());
+        for (const std::uint32_t v : part.corner) {
+            used[v] = true;
+            placed[first[v]] = true;
+        }
         for (std::uint32_t i = 0; i < part.position.size(); ++i) {
-            if (first[i] != i)
+            if (used[i] && !part.uv.empty()) {
+                uv_number[i] = static_cast<std::int32_t>(mesh.uv.size());
+                mesh.uv.push_back(part.uv[i]);
+            }
+            if (!placed[i])
                 continue;
             number[i] = static_cast<std::uint32_t>(mesh.position.size());
             mesh.position.push_back(part.position[i]);
@@ -312,11 +322,10 @@ class GltfReader {
                 out_.morph_targets[t].push_back(t < part.morphed.size() ? part.morphed[t][i]
                                                                         : part.position[i]);
         }
-        mesh.uv.insert(mesh.uv.end(), part.uv.begin(), part.uv.end());
         for (std::size_t c = 0; c < part.corner.size(); ++c) {
             const std::uint32_t v = part.corner[c];
             mesh.corner_position.push_back(number[first[v]]);
-            mesh.corner_uv.push_back(part.uv.empty() ? -1 : uv_base + static_cast<std::int32_t>(v));
+            mesh.corner_uv.push_back(part.uv.empty() ? -1 : uv_number[v]);
             if (c % 3 != 2)
                 continue;
             look_at_stop(progress_, c / 3);
