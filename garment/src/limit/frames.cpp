@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/distance.h"
 #include "mesh/stop.h"
+#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -65,13 +67,56 @@ void invent_frames(const LimitMesh &mesh, double angle, const std::vector<bool> 
     }
 }
 
+/// Derivatives by UV at the vertices of seams, from the triangles of either side, by their area.
+/// There the places follow the rules of the inside and the UVs those of an edge: among triangles of
+/// all shapes the limit derivatives of the two do not go together. Zero at other vertices.
+struct SeamDerivatives {
+    std::vector<glm::dvec3> p_u, p_v;
+};
+
+SeamDerivatives derivatives_at_seams(const LimitMesh &mesh) {
+    std::vector<bool> on_seam(mesh.position.size());
+    for (std::uint32_t v = 0; v < mesh.place.size(); ++v)
+        if (mesh.place[v] != v)
+            on_seam[v] = on_seam[mesh.place[v]] = true;
+    SeamDerivatives sums{std::vector<glm::dvec3>(mesh.position.size(), glm::dvec3(0.0)),
+                         std::vector<glm::dvec3>(mesh.position.size(), glm::dvec3(0.0))};
+    for (const glm::uvec3 &t : mesh.triangle) {
+        if (!on_seam[t.x] && !on_seam[t.y] && !on_seam[t.z])
+            continue;
+        const glm::dvec3 e = mesh.position[t.y] - mesh.position[t.x];
+        const glm::dvec3 f = mesh.position[t.z] - mesh.position[t.x];
+        const glm::dvec2 a(mesh.uv[t.y] - mesh.uv[t.x]), b(mesh.uv[t.z] - mesh.uv[t.x]);
+        const double side = a.x * b.y - a.y * b.x < 0.0 ? -1.0 : 1.0;
+        for (int c = 0; c < 3; ++c)
+            if (on_seam[t[c]]) {
+                sums.p_u[t[c]] += side * (b.y * e - a.y * f);
+                sums.p_v[t[c]] += side * (a.x * f - b.x * e);
+            }
+    }
+    return sums;
+}
+
+/// Two directions of which the second is known and lies too far from the first. The triangles are
+/// of the first order alone, so where both agree the limit derivative is the better one.
+bool are_apart(const glm::dvec3 &limit, const glm::dvec3 &of_triangles) {
+    constexpr double kMost = 6.0 * kDegree;
+    return of_triangles != glm::dvec3(0.0) && !(angle_between(limit, of_triangles) <= kMost);
+}
+
 /// Frames from the derivatives; `valid` tells where that was possible.
 void frames_from_uv(const LimitMesh &mesh, const std::vector<glm::dvec2> &grain, Surface &s,
                     std::vector<bool> &valid, FrameReport &report, const Progress &progress) {
+    const SeamDerivatives seams = derivatives_at_seams(mesh);
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
         look_at_stop(progress, v);
         const double c = grain[mesh.panel[v]].x, d = grain[mesh.panel[v]].y;
-        const glm::dvec3 n(mesh.normal[v]), p_u(mesh.dp_du[v]), p_v(mesh.dp_dv[v]);
+        const glm::dvec3 n(mesh.normal[v]);
+        glm::dvec3 p_u(mesh.dp_du[v]), p_v(mesh.dp_dv[v]);
+        if (are_apart(p_u, seams.p_u[v]) || are_apart(p_v, seams.p_v[v])) {
+            p_u = seams.p_u[v];
+            p_v = seams.p_v[v];
+        }
         // The yarns' own coordinates are the UV turned by the grain.
         const bool mirrored = glm::dot(glm::cross(p_u, p_v), n) < 0.0;
         glm::dvec3 weft = c * p_u + d * p_v;
