@@ -76,11 +76,11 @@ struct LimitMesh {
 /// Evaluates the limit surface by OpenSubdiv's Bfr on all threads of TBB. The order of the points
 /// does not depend on the number of threads. Level 0 gives the limit points of the control
 /// vertices, and the centre of faces that are neither triangle nor quad.
-/// UVs are face-varying, with the rules of positions along hems: smooth but for corners and where boundaries meet.
-/// \param mesh manifold (see make_manifold)
-/// Throws Error for a level out of range, the Loop scheme with faces that are not triangles, a
-/// vertex or face of 256 neighbours or more, or more points than the memory holds, before it is
-/// taken; Interrupted where `progress` says stop.
+/// UVs are face-varying, with the rules of positions along hems: smooth but for corners and where
+/// boundaries meet. \param mesh manifold (see make_manifold) Throws Error for a level out of range,
+/// the Loop scheme with faces that are not triangles, a vertex or face of 256 neighbours or more,
+/// or more points than the memory holds, before it is taken; Interrupted where `progress` says
+/// stop.
 LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options = {},
                     const Progress &progress = {});
 
