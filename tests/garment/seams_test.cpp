@@ -142,6 +142,24 @@ TEST(Seams, LayersThatLieOnEachOtherAreNotSewn) {
     EXPECT_EQ(sewn.seams.layered, 0u);
 }
 
+// Front and back of a flat garment meet at an angle that goes to 0 at the side seam: however fine
+// the mesh is, they part from each other there.
+TEST(Seams, AFlatTubeIsSewnAtItsSides) {
+    for (const int columns : {20, 80}) {
+        const auto half = [&](double side) {
+            return test::grid(columns, columns, false, false, glm::dvec2(0.01), [&](int i, int j) {
+                const double t = std::numbers::pi * i / columns;
+                return glm::dvec3(-0.25 * std::cos(t), 0.6 * j / columns,
+                                  side * 0.03 * std::pow(std::sin(t), 2));
+            });
+        };
+        const Report report = check(both(half(1), turned(half(-1))));
+        EXPECT_EQ(report.parts, 1u) << columns;
+        EXPECT_EQ(report.openings.size(), 2u);
+        EXPECT_EQ(report.seams.layered, 0u);
+    }
+}
+
 // In whatever unit a file is, and whatever was said about it.
 TEST(Seams, ASmallerOrLargerMeshIsSewnAlike) {
     PolygonMesh two = triangulated(both(panel(4, 6, 0.1), panel(3, 5, 0.12, {0.4003, 0, 0})));

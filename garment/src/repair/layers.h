@@ -2,6 +2,7 @@
 /// \file
 /// Which parts of a garment lie on each other as layers of cloth, and so are not sewn together.
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -39,28 +40,33 @@ class LayeredParts {
     std::set<std::uint32_t> layered_{};
 };
 
-/// Votes of the places where rims of two parts meet. A seam may have spots where cloth folds over;
-/// parts are layers where nearly all of their contact is.
+/// Votes of the places where rims of two parts meet. A seam may have spots where cloth folds over,
+/// and two panels of a bag lie on each other along their whole seam: so parts whose contact is
+/// nearly all folded may be layers, and are if their faces lie on each other, too.
 class LayerVotes {
   public:
     void add(std::uint32_t part, std::uint32_t other, Contact contact) {
         if (part == other || contact == Contact::none)
             return;
-        auto &[layers, all] = votes_[std::minmax(part, other)];
-        layers += contact == Contact::layers;
+        auto &[folded, all] = votes_[std::minmax(part, other)];
+        folded += contact == Contact::folded;
         ++all;
     }
-    LayeredParts layered(std::vector<std::uint32_t> part) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates() const {
         constexpr std::size_t kShare = 10; // at most one in so many may be a seam
-        std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
         for (const auto &[pair, votes] : votes_)
             if (kShare * (votes.second - votes.first) <= votes.second)
-                pairs.insert(pair);
-        return {std::move(part), std::move(pairs)};
+                pairs.push_back(pair);
+        return pairs;
     }
 
   private:
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> votes_{};
 };
+
+/// Most of the smaller set of faces lies within a distance of the other: of up to 64 of its faces.
+bool lie_on_each_other(const PolygonMesh &mesh, std::vector<std::uint32_t> faces,
+                       std::vector<std::uint32_t> others, double distance);
 
 } // namespace tsuya::garment

@@ -20,6 +20,9 @@ namespace {
 constexpr double kInnerShare = 0.02;
 constexpr double kEndShare = 0.1;
 
+/// How far layers of cloth may lie from each other, in tolerances of sewing.
+constexpr double kLayerTolerances = 4.0;
+
 /// Sides of edges between `allowed` vertices that only one face has.
 std::vector<EdgeUse> open_edges(const EdgeTable &edges, const VertexSet &allowed) {
     std::vector<EdgeUse> open;
@@ -105,7 +108,7 @@ class OpenEdges {
                 seen.push_back(rim_edge(mesh_, e.face, e.corner, true));
             if (glm::distance(p, a) > tolerance_)
                 seen.push_back(rim_edge(mesh_, e.face, e.corner, false));
-            votes.add(part[v], part[e.low], contact_of(rims, seen, tolerance_));
+            votes.add(part[v], part[e.low], contact_of(rims, seen));
         }
     }
 
@@ -153,7 +156,20 @@ void MeshRepair::find_layers(double tolerance) {
         look_at_stop(progress_, turn++);
         open.vote(v, rims[v], part, votes);
     }
-    layers_ = votes.layered(std::move(part));
+    const auto faces_of = [&](std::uint32_t wanted) {
+        std::vector<std::uint32_t> faces;
+        for (std::uint32_t f = 0; f < mesh_.face_count(); ++f)
+            if (part[mesh_.corner_position[mesh_.face_offset[f]]] == wanted)
+                faces.push_back(f);
+        return faces;
+    };
+    std::set<std::pair<std::uint32_t, std::uint32_t>> layers;
+    for (const auto &[one, other] : votes.candidates()) {
+        look_at_stop(progress_);
+        if (lie_on_each_other(mesh_, faces_of(one), faces_of(other), kLayerTolerances * tolerance))
+            layers.insert({one, other});
+    }
+    layers_ = LayeredParts(std::move(part), std::move(layers));
     for (const std::uint32_t v : ends_of(open.edges()))
         if (layers_.has_any(v)) {
             ++report_.seams.layered;

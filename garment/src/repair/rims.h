@@ -14,8 +14,6 @@ namespace tsuya::garment {
 struct RimEdge {
     glm::dvec3 along;  ///< away from the point, unit
     glm::dvec3 inward; ///< across the edge into its face, unit
-    glm::dvec3 normal; ///< of the face, unit
-    glm::dvec3 middle; ///< of the face
 };
 
 /// The edge that starts at a corner, as seen from its start (`forward`) or its end. Zero vectors
@@ -24,12 +22,11 @@ RimEdge rim_edge(const PolygonMesh &mesh, std::uint32_t face, std::uint32_t corn
 
 /// How two rims that meet at a place lie.
 enum class Contact {
-    none,  ///< they run apart, or it cannot be said
-    seam,  ///< side by side, the faces on opposite sides
-    layers ///< side by side, the faces on one side and at one height
+    none,  ///< they run apart
+    seam,  ///< side by side, the faces on opposite sides or at an angle above 45 degrees
+    folded ///< side by side, the faces on one side: layers, or a seam where cloth is folded over
 };
 
-/// \param tolerance by which faces at one height may differ, metres
-Contact contact_of(const std::vector<RimEdge> &a, const std::vector<RimEdge> &b, double tolerance);
+Contact contact_of(const std::vector<RimEdge> &a, const std::vector<RimEdge> &b);
 
 } // namespace tsuya::garment
