@@ -57,7 +57,8 @@ TEST(Panels, AreNamedByAnyOfTheirNames) {
     EXPECT_EQ(named("FRONT/crepe"), (Indices{1}));
     EXPECT_EQ(named("*"), (Indices{0, 1, 2}));
     EXPECT_EQ(named("BA?K"), (Indices{2}));
-    EXPECT_EQ(named("[cC]repe"), (Indices{1}));
+    EXPECT_EQ(named("*R*/*e"), (Indices{1}));
+    EXPECT_THROW(named("[cC]repe"), Error); // brackets are letters
     try {
         named("stain");
         FAIL();
@@ -69,11 +70,13 @@ TEST(Panels, AreNamedByAnyOfTheirNames) {
     EXPECT_THROW(panels_named(test::panel(1, 1, 0.1), "a", "t"), Error);
 }
 
-// A pattern is a name first: brackets may be part of it.
-TEST(Panels, ANameWithBracketsNamesItself) {
-    const PolygonMesh mesh = parse_obj(squares({"g Button[1]\n", "g Button1\n"}), "t.obj");
-    EXPECT_EQ(panels_named(mesh, "Button[1]", "t"), (Indices{0, 1}));
-    EXPECT_EQ(panels_named(mesh, "Button\\[1\\]", "t"), (Indices{0}));
+TEST(Panels, BracketsAreLettersAndAQuestionMarkIsOneLetterOfAnyScript) {
+    const PolygonMesh mesh = parse_obj(
+        squares({"g Front[L]1\n", "g Front[L]2\n", "g \xec\x95\x9e\xed\x8c\x90\n"}), "t.obj");
+    EXPECT_EQ(panels_named(mesh, "Front[L]*", "t"), (Indices{0, 1}));
+    EXPECT_EQ(panels_named(mesh, "Front[L]2", "t"), (Indices{1}));
+    EXPECT_EQ(panels_named(mesh, "\xec\x95\x9e?", "t"), (Indices{2}));
+    EXPECT_EQ(panels_named(mesh, "??", "t"), (Indices{2}));
 }
 
 TEST(Panels, ManyNames) {

@@ -74,6 +74,12 @@ TEST_F(PanelScene, PanelsHaveFabricsOfTheirOwn) {
     EXPECT_EQ(object.back->value, 1u);
     EXPECT_EQ(fabrics_of(object), (Pairs{{2, 2}}));
     EXPECT_FALSE(object.panels[0].back); // a button has no lining
+    // Cloth is lined as the garment is
+    EXPECT_EQ(coat("back = \"lining\"\n[garments.coat.panels.horn]\nfabric = \"horn\"\n"
+                   "[garments.coat.panels.Back]\nfabric = \"silk\"\n")
+                  .panels[0]
+                  .back->value,
+              1u);
     // By material, and the last counts
     EXPECT_EQ(fabrics_of(coat("[garments.coat.panels.\"*\"]\nfabric = \"horn\"\n"
                               "[garments.coat.panels.satin]\nfabric = \"silk\"\n"
@@ -103,6 +109,30 @@ TEST_F(PanelScene, OfIslands) {
     EXPECT_EQ(fabrics_of(coat("[garments.coat.panels.horn]\nfabric = \"horn\"\n"
                               "[garments.coat.panels.island1]\nfabric = \"lining\"\n")),
               (Pairs{{1, 1}, {2, 2}}));
+}
+
+TEST_F(PanelScene, GrainIsKeptWhereIslandsAreNamed) {
+    const Scene scene = build_scene(read("grain.Front = 90\n[garments.coat.panels.horn]\n"
+                                         "fabric = \"horn\"\n[garments.coat.panels.\"isl*1\"]\n"
+                                         "fabric = \"lining\"\n"))
+                            .scene;
+    EXPECT_EQ(fabrics_of(scene.objects[0]), (Pairs{{1, 1}, {2, 2}}));
+    const Surface &surface = scene.surfaces[0];
+    for (std::size_t t = 0; t < surface.triangle.size(); ++t)
+        if (surface.panel[t] == 0) {
+            EXPECT_NEAR(std::abs(surface.warp[surface.triangle[t].x].x), 1, 1e-5);
+        }
+}
+
+TEST_F(PanelScene, ABodyMayBePrinted) {
+    write_png(scratch / "a.png", Image::make(4, 2, {"R", "G", "B"}));
+    const std::string scene = "[garments.coat.panels.Button1]\nfabric = \"horn\"\n"
+                              "[bodies.b]\nmesh = \"cloth.obj\"\nfabric = \"horn\"\n"
+                              "pattern = { picture = \"a.png\", width_m = 0.1 }\n";
+    scratch.write("cloth.obj", cloth_obj());
+    const Scene built = build_scene(read(scene)).scene;
+    EXPECT_TRUE(built.objects[1].print);
+    EXPECT_FALSE(built.surfaces[1].uv.empty());
 }
 
 TEST_F(PanelScene, WhatNamesNothingIsRefusedWithTheNearest) {

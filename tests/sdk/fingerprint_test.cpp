@@ -146,6 +146,18 @@ Scene full_scene() {
         scene.fabrics.push_back({.name = "cloth", .specular = specular});
     scene.environment->picture = Image::make(2, 1, {"L"});
     scene.environment->picture->data = {1, 2};
+    scene.surfaces[1].uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    scene.textures = {{.width = 2, .height = 1, .channels = 1, .data = {10, 200}},
+                      {.width = 2, .height = 1, .channels = 1, .data = {20, 100}}};
+    scene.prints = {{.layers = {{{0}, {Spectrum::constant(0.5)}}}}};
+    scene.opacities = {{.picture = {1}}};
+    scene.objects[1].print = PrintIndex{0};
+    scene.objects[1].panels = {{.panel = 0,
+                                .fabric = {1},
+                                .back = FabricIndex{1},
+                                .print = PrintIndex{0},
+                                .back_print = PrintIndex{0},
+                                .opacity = OpacityIndex{0}}};
     return scene;
 }
 

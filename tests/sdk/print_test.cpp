@@ -180,6 +180,36 @@ TEST(Print, OnSatinIsThatSatinDyed) {
     EXPECT_GT(expected[0], 0.2f);
 }
 
+// What a print leaves free has the dyes of the cloth's own yarns.
+TEST(Print, LeavesShotClothShotWhereItDoesNotCover) {
+    Fabric shot = satin(0);
+    shot.colours.weft_dye = Spectrum::constant(0.1);
+    shot.colours.warp_dye = Spectrum::constant(0.6);
+    Scene printed = printed_floor(shot, plain({255, 0, 0, 255}), inks());
+    printed.prints[0].placement = {.width = 0.1, .origin = {5, 5}, .repeat = Repeat::once};
+    Scene free = printed;
+    free.objects[0].print.reset();
+    const auto picture = render(printed, quick(256)).image.transport,
+               expected = render(free, quick(256)).image.transport;
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        sum += static_cast<double>(picture[i]);
+        all += static_cast<double>(expected[i]);
+    }
+    EXPECT_NEAR(sum / all, 1, 0.01);
+}
+
+TEST(Print, OfALiningIsSeenFromBehind) {
+    Scene scene = printed_floor(lambert(0.9), plain({255, 0, 0, 255}), inks());
+    scene.fabrics.push_back(lambert(0.5));
+    scene.objects[0].print.reset();
+    scene.objects[0].back = FabricIndex{1};
+    scene.objects[0].back_print = PrintIndex{0};
+    EXPECT_NEAR(value(scene), 0.9, 1e-3);
+    scene.camera.eye = {0, -2, 0};
+    EXPECT_NEAR(value(scene), 0.1, 1e-3);
+}
+
 // From afar a fine print is even at the first sample; a coarse one is not.
 TEST(Print, IsFilteredByWhatAPixelSees) {
     const auto deviation = [](double width) {
@@ -216,6 +246,10 @@ TEST(Print, ThatIsWrongIsRefused) {
     Scene scene = good;
     scene.prints[0].layers[0].inks.pop_back();
     EXPECT_EQ(where(scene), "prints[0].layers[0]");
+    scene = good; // of two shapes
+    scene.textures.push_back({.width = 2, .height = 1, .channels = 1, .data = {0, 0}});
+    scene.prints[0].layers.push_back({{1}, {Spectrum::constant(0.5)}});
+    EXPECT_EQ(where(scene), "prints[0].layers[1]");
     scene = good;
     scene.prints[0].placement.width = 0;
     EXPECT_EQ(where(scene), "prints[0].width");

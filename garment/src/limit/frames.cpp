@@ -106,7 +106,8 @@ bool are_apart(const glm::dvec3 &limit, const glm::dvec3 &of_triangles) {
 
 /// Frames from the derivatives; `valid` tells where that was possible.
 void frames_from_uv(const LimitMesh &mesh, const std::vector<glm::dvec2> &grain, Surface &s,
-                    std::vector<bool> &valid, FrameReport &report, const Progress &progress) {
+                    std::vector<bool> &valid, std::vector<bool> &mirrored_at, FrameReport &report,
+                    const Progress &progress) {
     const SeamDerivatives seams = derivatives_at_seams(mesh);
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
         look_at_stop(progress, v);
@@ -123,7 +124,8 @@ void frames_from_uv(const LimitMesh &mesh, const std::vector<glm::dvec2> &grain,
         if (mirrored)
             weft = -weft;
         valid[v] = into_plane(c * p_v - d * p_u, n, s.warp[v]) && into_plane(weft, n, s.weft[v]);
-        report.mirrored += valid[v] && mirrored;
+        mirrored_at[v] = valid[v] && mirrored;
+        report.mirrored += mirrored_at[v];
     }
 }
 
@@ -225,7 +227,8 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
     s.warp.resize(mesh.position.size());
     s.weft.resize(mesh.position.size());
     std::vector<bool> valid(mesh.position.size());
-    frames_from_uv(mesh, grain, s, valid, report, progress);
+    std::vector<bool> mirrored(mesh.position.size());
+    frames_from_uv(mesh, grain, s, valid, mirrored, report, progress);
     look_at_stop(progress);
     const std::vector<bool> plain = plain_panels(mesh, options);
     for (std::size_t v = 0; v < valid.size(); ++v)
@@ -253,7 +256,8 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
     for (std::size_t v = 0; v < s.uv.size(); ++v) {
         const double c = grain[mesh.panel[v]].x, d = grain[mesh.panel[v]].y;
         const glm::dvec2 t = options.metres_per_uv * glm::dvec2(mesh.uv[v]);
-        s.uv[v] = glm::vec2(c * t.x + d * t.y, c * t.y - d * t.x);
+        const double u = c * t.x + d * t.y;
+        s.uv[v] = glm::vec2(mirrored[v] ? -u : u, c * t.y - d * t.x);
     }
 }
 

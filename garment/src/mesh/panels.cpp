@@ -4,8 +4,6 @@
 #include <set>
 #include <utility>
 
-#include <fnmatch.h>
-
 #include "mesh/islands.h"
 #include "tsuya/sdk/error.h"
 
@@ -24,8 +22,33 @@ PanelLabel label_of(const PolygonMesh &mesh, std::uint32_t panel, const std::str
     return label;
 }
 
-bool matches(const std::string &name, const std::string &pattern) {
-    return !name.empty() && (name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
+// Bytes of the letter that begins here, in UTF-8.
+std::size_t letter_size(std::string_view text) {
+    std::size_t size = 1;
+    while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xc0u) == 0x80u)
+        ++size;
+    return size;
+}
+
+// `*` stands for any letters, `?` for one.
+bool is_like(std::string_view name, std::string_view pattern) {
+    if (pattern.empty())
+        return name.empty();
+    if (pattern.front() == '*') {
+        for (std::size_t from = 0; from <= name.size(); ++from)
+            if (is_like(name.substr(from), pattern.substr(1)))
+                return true;
+        return false;
+    }
+    if (name.empty())
+        return false;
+    if (pattern.front() == '?')
+        return is_like(name.substr(letter_size(name)), pattern.substr(1));
+    return name.front() == pattern.front() && is_like(name.substr(1), pattern.substr(1));
+}
+
+bool matches(const std::string &name, std::string_view pattern) {
+    return !name.empty() && (name == pattern || is_like(name, pattern));
 }
 
 } // namespace
@@ -77,7 +100,6 @@ void split_panels_by_island(MeshFile &file) {
 
 std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_view pattern,
                                         const std::string &where) {
-    const std::string text(pattern);
     std::vector<std::uint32_t> found;
     std::set<std::string> known;
     for (std::uint32_t p = 0; p < mesh.panel_name.size(); ++p) {
@@ -85,7 +107,7 @@ std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_vie
         bool matched = false;
         for (const std::string &name :
              {mesh.panel_name[p], label.object, label.group, label.material, label.island}) {
-            matched = matched || matches(name, text);
+            matched = matched || matches(name, pattern);
             if (!name.empty())
                 known.insert(name);
         }
@@ -98,7 +120,8 @@ std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_vie
         throw Error({"the mesh names no panel", where,
                      "expected a mesh with groups, objects, materials or UVs"});
     const std::vector<std::string> names(known.begin(), known.end());
-    throw Error({"no panel is named '" + text + "'", where, accepted_names(pattern, names)});
+    throw Error({"no panel is named '" + std::string(pattern) + "'", where,
+                 accepted_names(pattern, names)});
 }
 
 } // namespace tsuya::garment

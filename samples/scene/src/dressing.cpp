@@ -4,13 +4,10 @@
 #include <map>
 
 #include "tsuya/garment/panels.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
 namespace {
-
-bool names_islands(const PanelEntry &entry) {
-    return entry.panels.find("island") != std::string::npos;
-}
 
 template <class Tag = FabricTag> Index<Tag> index_of(std::size_t value) {
     return {static_cast<std::uint32_t>(value)};
@@ -19,24 +16,56 @@ template <class Tag = FabricTag> Index<Tag> index_of(std::size_t value) {
 // What an entry says of a panel.
 void apply(const PanelEntry &entry, const std::vector<DressingFabric> &fabrics,
            PanelFabric &panel) {
-    if (entry.fabric) { // what is here was of the garment's fabric
+    if (entry.fabric) { // print and holes were of the garment's fabric
+        const DressingFabric &fabric = fabrics[*entry.fabric];
         panel.fabric = index_of(*entry.fabric);
-        panel.back.reset();
-        panel.print = fabrics[*entry.fabric].print;
-        panel.opacity = fabrics[*entry.fabric].opacity;
+        panel.print = fabric.print;
+        panel.opacity = fabric.opacity;
+        if (!fabric.needs_frames) { // a button is not lined
+            panel.back.reset();
+            panel.back_print.reset();
+        }
     }
-    if (entry.back)
+    if (entry.back) {
         panel.back = index_of(*entry.back);
+        panel.back_print = fabrics[*entry.back].print;
+    }
     if (entry.pattern)
         panel.print = index_of<PrintTag>(*entry.pattern);
     if (entry.opacity)
         panel.opacity = index_of<OpacityTag>(*entry.opacity);
 }
 
+bool names_any(const garment::PolygonMesh &mesh, const PanelEntry &entry) {
+    try {
+        garment::panels_named(mesh, entry.panels, entry.where);
+        return true;
+    } catch (const Error &) {
+        return false;
+    }
+}
+
+// Into UV islands, with the grain that is stated for panels.
+void split(garment::MeshFile &mesh, garment::FrameOptions &frames) {
+    garment::split_panels_by_island(mesh);
+    std::map<std::string, double> grain;
+    for (const auto &[name, angle] : frames.grain) {
+        bool found = false;
+        for (const std::string &panel : mesh.mesh.panel_name)
+            if (panel == name || panel.starts_with(name + "/island")) {
+                grain[panel] = angle;
+                found = true;
+            }
+        if (!found)
+            grain[name] = angle; // refused by that name
+    }
+    frames.grain = std::move(grain);
+}
+
 } // namespace
 
 Object Dressing::object(std::string name, SurfaceIndex surface) && {
-    return {std::move(name), surface, fabric, back, print, opacity, std::move(panels)};
+    return {std::move(name), surface, fabric, back, print, back_print, opacity, std::move(panels)};
 }
 
 Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
@@ -44,12 +73,13 @@ Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
                garment::Options &options) {
     if (entries.empty())
         return whole;
-    if (mesh.mesh.panel_name.empty() || std::ranges::any_of(entries, names_islands))
-        garment::split_panels_by_island(mesh);
+    if (!std::ranges::all_of(entries, [&](const PanelEntry &e) { return names_any(mesh.mesh, e); }))
+        split(mesh, options.frames);
     std::map<std::uint32_t, PanelFabric> panels;
     for (const PanelEntry &entry : entries)
         for (const std::uint32_t p : garment::panels_named(mesh.mesh, entry.panels, entry.where)) {
-            const PanelFabric as_whole{p, whole.fabric, whole.back, whole.print, whole.opacity};
+            const PanelFabric as_whole{p,           whole.fabric,     whole.back,
+                                       whole.print, whole.back_print, whole.opacity};
             apply(entry, fabrics, panels.try_emplace(p, as_whole).first->second);
             if (entry.grain)
                 options.frames.grain[mesh.mesh.panel_name[p]] = *entry.grain;

@@ -14,7 +14,7 @@ namespace tsuya::scene {
 struct Dressing {
     FabricIndex fabric{};
     std::optional<FabricIndex> back{};
-    std::optional<PrintIndex> print{};
+    std::optional<PrintIndex> print{}, back_print{};
     std::optional<OpacityIndex> opacity{};
     std::vector<PanelFabric> panels{};
 
@@ -30,8 +30,8 @@ struct DressingFabric {
 };
 
 // Finds the panels that the entries name, later ones before earlier ones, and sets their grain in
-// `options`, and which of them have no yarn directions. Panels become UV islands where the mesh
-// names none or an entry names islands. Throws Error at an entry that names no panel.
+// `options`, and which of them have no yarn directions. Panels become UV islands where an
+// entry names no panel of the mesh as it is. Throws Error at an entry that names none then.
 // \param whole what panels have that no entry names
 Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
                const std::vector<DressingFabric> &fabrics, garment::MeshFile &mesh,

@@ -139,11 +139,13 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
             const FabricEntry &fabric = file.fabrics[entry.fabric];
             const auto pattern = entry.pattern ? entry.pattern : fabric.pattern;
             const auto opacity = entry.opacity ? entry.opacity : fabric.opacity;
-            Dressing dressing = dress({.fabric = index_of<FabricTag>(entry.fabric),
-                                       .back = index_of<FabricTag>(entry.back),
-                                       .print = index_of<PrintTag>(pattern),
-                                       .opacity = index_of<OpacityTag>(opacity)},
-                                      entry.panels, fabrics, mesh.file, mesh.options);
+            Dressing dressing =
+                dress({.fabric = index_of<FabricTag>(entry.fabric),
+                       .back = index_of<FabricTag>(entry.back),
+                       .print = index_of<PrintTag>(pattern),
+                       .back_print = entry.back ? fabrics[*entry.back].print : std::nullopt,
+                       .opacity = index_of<OpacityTag>(opacity)},
+                      entry.panels, fabrics, mesh.file, mesh.options);
             add_object(scene, entry.name, meshes.add(std::move(mesh)), std::move(dressing));
         }
     if (file.backdrop) {

@@ -65,6 +65,18 @@ std::optional<Spectrum> SceneReader::colour(const Section &section, const char *
     return constant ? std::optional(Spectrum::constant(*constant)) : std::nullopt;
 }
 
+bool SceneReader::has_pictures(const MeshEntry &entry) const {
+    const auto printed = [&](const std::optional<std::size_t> &fabric) {
+        return fabric && *fabric < file_.fabrics.size() &&
+               (file_.fabrics[*fabric].pattern || file_.fabrics[*fabric].opacity);
+    };
+    return entry.pattern || entry.opacity || printed(entry.fabric) || printed(entry.back) ||
+           std::ranges::any_of(entry.panels, [&](const PanelEntry &panel) {
+               return panel.pattern || panel.opacity || printed(panel.fabric) ||
+                      printed(panel.back);
+           });
+}
+
 Placement SceneReader::placement(const Section &section) {
     Placement placement;
     placement.width = section.required_number("width_m", kSmallest, kLargest);
@@ -246,7 +258,8 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         entry.tolerance_px = section.number("tolerance_px", 1e-3, 1e3);
         entry.translate = section.vector("translate").value_or(glm::dvec3(0));
         entry.visible = section.flag("visible").value_or(true);
-        entry.options.want_frames = yarn;
+        entry.options.want_frames = yarn || has_pictures(entry);
+        entry.options.metres_per_uv = section.number("metres_per_uv", kSmallest, kLargest);
         if (yarn)
             read_cloth(section, entry);
         entries.push_back(std::move(entry));
@@ -283,7 +296,6 @@ void SceneReader::read_panels(const Section &panels, bool yarn, MeshEntry &entry
 }
 
 void SceneReader::read_cloth(const Section &section, MeshEntry &entry) {
-    entry.options.metres_per_uv = section.number("metres_per_uv", kSmallest, kLargest);
     entry.options.subdivide.seam_crease = section.number("seam_crease", 0, 10).value_or(0);
     garment::FrameOptions &frames = entry.options.frames;
     frames.max_degenerate_area =

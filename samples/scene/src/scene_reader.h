@@ -44,6 +44,8 @@ class SceneReader {
     // `dye` or `reflectance`.
     std::optional<Spectrum> reflectance(const Section &section);
     std::optional<Spectrum> dyed(const Section &section, const char *key);
+    // A print or holes lie on the mesh, so its UVs are needed.
+    bool has_pictures(const MeshEntry &entry) const;
     // Where a picture lies on the cloth.
     static Placement placement(const Section &section);
     // Index of the opacity of a fabric, a garment or panels; empty where it has none.

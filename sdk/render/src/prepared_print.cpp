@@ -37,34 +37,41 @@ PreparedPrint::PreparedPrint(const Print &print, const std::vector<MipTexture> &
     }
 }
 
-void PreparedPrint::dye(glm::vec2 uv, float footprint, ChannelValues &dye) const {
+void PreparedPrint::dye(glm::vec2 uv, float footprint, ChannelValues &weft,
+                        ChannelValues &warp) const {
     const glm::vec2 place = place_.at(uv);
-    for (const PreparedLayer &layer : layers_)
-        add(layer, layer.picture->at(place, footprint * place_.widths_per_metre(), repeat_), dye);
+    for (const PreparedLayer &layer : layers_) {
+        const glm::vec4 pixel =
+            layer.picture->at(place, footprint * place_.widths_per_metre(), repeat_);
+        if (!(pixel.w > 0))
+            continue;
+        const ChannelValues of_layer = ink(layer, pixel);
+        cover(pixel.w, of_layer, weft);
+        cover(pixel.w, of_layer, warp);
+    }
 }
 
 void PreparedPrint::mean_dye(ChannelValues &dye) const {
-    for (const PreparedLayer &layer : layers_)
-        add(layer, layer.picture->mean(), dye);
+    for (const PreparedLayer &layer : layers_) {
+        const glm::vec4 mean = layer.picture->mean();
+        cover(mean.w, ink(layer, mean), dye);
+    }
 }
 
-void PreparedPrint::add(const PreparedLayer &layer, const glm::vec4 &pixel,
-                        ChannelValues &dye) const {
-    const float covered = pixel.w;
-    if (!(covered > 0))
-        return;
-    const auto count = static_cast<std::size_t>(channels_);
-    ChannelValues of_layer{};
-    if (layer.inks.size() == 1) {
-        of_layer = layer.inks.front();
-    } else {
-        const std::array<float, 8> shares = corner_shares(glm::vec3(pixel));
-        for (std::size_t corner = 0; corner < 8; ++corner)
-            for (std::size_t k = 0; k < count; ++k)
-                of_layer[k] += shares[corner] * layer.inks[corner][k];
-    }
-    for (std::size_t k = 0; k < count; ++k)
-        dye[k] += covered * (of_layer[k] - dye[k]);
+ChannelValues PreparedPrint::ink(const PreparedLayer &layer, const glm::vec4 &pixel) const {
+    if (layer.inks.size() == 1)
+        return layer.inks.front();
+    ChannelValues mixed{};
+    const std::array<float, 8> shares = corner_shares(glm::vec3(pixel));
+    for (std::size_t corner = 0; corner < 8; ++corner)
+        for (std::size_t k = 0; k < static_cast<std::size_t>(channels_); ++k)
+            mixed[k] += shares[corner] * layer.inks[corner][k];
+    return mixed;
+}
+
+void PreparedPrint::cover(float share, const ChannelValues &ink, ChannelValues &dye) const {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(channels_); ++k)
+        dye[k] += share * (ink[k] - dye[k]);
 }
 
 } // namespace tsuya

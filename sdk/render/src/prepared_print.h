@@ -25,15 +25,17 @@ class PreparedPrint {
     PreparedPrint(const Print &print, const std::vector<MipTexture> &textures,
                   const SpectralBasis &basis);
 
-    // Replaces the dye of the cloth by that of the print where it covers it.
+    // Replaces the dyes of the cloth's two yarn systems by that of the print where it covers them.
     // \param uv metres of cloth
     // \param footprint what one sample stands for, metres
-    void dye(glm::vec2 uv, float footprint, ChannelValues &dye) const;
-    // The same by the means of its pictures.
+    void dye(glm::vec2 uv, float footprint, ChannelValues &weft, ChannelValues &warp) const;
+    // The same of one system by the means of its pictures.
     void mean_dye(ChannelValues &dye) const;
 
   private:
-    void add(const PreparedLayer &layer, const glm::vec4 &pixel, ChannelValues &dye) const;
+    // Of the layer at a pixel.
+    ChannelValues ink(const PreparedLayer &layer, const glm::vec4 &pixel) const;
+    void cover(float share, const ChannelValues &ink, ChannelValues &dye) const;
 
     std::vector<PreparedLayer> layers_{};
     ClothPlace place_;

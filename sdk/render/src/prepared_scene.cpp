@@ -102,7 +102,8 @@ void PreparedScene::prepare_prints(const SpectralBasis &basis) {
             {&texture, ClothPlace(placement, texture.width_over_height()), placement.repeat});
     }
     for (const Fabric &fabric : scene.fabrics)
-        dyes_.push_back(values_of(fabric.colours.dye, basis));
+        dyes_.push_back({values_of(fabric.colours.dye_of_weft(), basis),
+                         values_of(fabric.colours.dye_of_warp(), basis)});
 }
 
 std::uint32_t PreparedScene::cloth_of(const Cloth &cloth) {
@@ -119,12 +120,13 @@ void PreparedScene::prepare_sides() {
     for (const Object &object : scene.objects) {
         const Surface &surface = scene.surfaces[object.surface.value];
         const auto sides = [&](const auto &of) {
-            Cloth cloth{of.fabric.value, {}};
-            if (of.print)
-                cloth.print = of.print->value;
-            const std::uint32_t face = cloth_of(cloth);
-            Sides made{
-                face, of.back ? of.back->value : face, !of.back && !surface.warp.empty(), {}};
+            const auto number = [](const auto &index) {
+                return index ? std::optional(index->value) : std::nullopt;
+            };
+            const std::uint32_t face = cloth_of({of.fabric.value, number(of.print)});
+            Sides made{face, face, !of.back && !surface.warp.empty(), {}};
+            if (of.back)
+                made.back = cloth_of({of.back->value, number(of.back_print)});
             if (of.opacity)
                 made.opacity = of.opacity->value;
             return made;
@@ -154,6 +156,7 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
         colours.push_back(colours_of(material, basis));
         shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
         of_dye_.push_back(material.of_dye);
+        weft_share_.push_back(static_cast<float>(material.weft_share));
     }
     for (std::size_t i = 0; i < cloths_.size(); ++i)
         colours.push_back(exchanged(colours[i]));
@@ -163,15 +166,24 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
 // in due proportion.
 Fabric PreparedScene::as_printed(const Cloth &cloth, const SpectralBasis &basis) const {
     Fabric fabric = scene.fabrics[cloth.fabric];
-    ChannelValues dye = values_of(fabric.colours.dye, basis);
-    prints_[*cloth.print].mean_dye(dye);
-    Spectrum mean{{}, {}};
-    for (int k = 0; k < basis.count; ++k) {
-        mean.wavelength_nm.push_back(basis.centre_nm(k));
-        mean.value.push_back(
-            static_cast<double>(std::clamp(dye[static_cast<std::size_t>(k)], 0.0f, 1.0f)));
+    const auto mean = [&](ChannelValues dye) {
+        prints_[*cloth.print].mean_dye(dye);
+        Spectrum spectrum{{}, {}};
+        for (int k = 0; k < basis.count; ++k) {
+            spectrum.wavelength_nm.push_back(basis.centre_nm(k));
+            spectrum.value.push_back(
+                static_cast<double>(std::clamp(dye[static_cast<std::size_t>(k)], 0.0f, 1.0f)));
+        }
+        return spectrum;
+    };
+    FabricColours &dyed = fabric.colours;
+    const bool one_dye = dyed.dye_of_weft() == dyed.dye_of_warp();
+    const Spectrum weft = mean(dyes_[cloth.fabric].weft), warp = mean(dyes_[cloth.fabric].warp);
+    dyed.dye_all(weft);
+    if (!one_dye) {
+        dyed.weft_dye = weft;
+        dyed.warp_dye = warp;
     }
-    fabric.colours.dye_all(mean);
     return fabric;
 }
 
@@ -181,19 +193,27 @@ Colours PreparedScene::printed(const SurfacePoint &point, float distance,
     constexpr float kBounceAngle = 0.05f;
     const Cloth &cloth = cloths_[point.cloth];
     Colours c = colours[point.colours];
-    ChannelValues dye = dyes_[cloth.fabric];
+    Dyes dyes = dyes_[cloth.fabric];
     prints_[*cloth.print].dye(point.uv, distance * (seen_by_camera ? pixel_angle_ : kBounceAngle),
-                              dye);
+                              dyes.weft, dyes.warp);
+    if (point.colours != point.cloth) // its own back
+        std::swap(dyes.weft, dyes.warp);
     const std::vector<glm::vec2> &of_dye = of_dye_[point.cloth];
     const float steps = static_cast<float>(of_dye.size() - 1);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(channels_); ++k) {
-        const float at = std::clamp(dye[k], 0.0f, 1.0f) * steps;
+    const auto albedos = [&](float dye) {
+        const float at = std::clamp(dye, 0.0f, 1.0f) * steps;
         const auto below = std::min(static_cast<std::size_t>(at), of_dye.size() - 2);
-        const glm::vec2 albedos =
-            glm::mix(of_dye[below], of_dye[below + 1], at - static_cast<float>(below));
-        c.dye[k] = std::min(albedos.x, 1.0f);
-        c.weft_body[k] = c.warp_body[k] = std::min(albedos.y, 1 - c.dye[k]);
-        c.transmittance[k] = std::min(c.transmittance[k], 1 - c.dye[k] - c.warp_body[k]);
+        return glm::mix(of_dye[below], of_dye[below + 1], at - static_cast<float>(below));
+    };
+    const float share =
+        point.colours == point.cloth ? weft_share_[point.cloth] : 1 - weft_share_[point.cloth];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(channels_); ++k) {
+        const glm::vec2 weft = albedos(dyes.weft[k]), warp = albedos(dyes.warp[k]);
+        c.dye[k] = std::min(glm::mix(warp.x, weft.x, share), 1.0f);
+        c.weft_body[k] = std::min(weft.y, 1 - c.dye[k]);
+        c.warp_body[k] = std::min(warp.y, 1 - c.dye[k]);
+        c.transmittance[k] =
+            std::min(c.transmittance[k], 1 - c.dye[k] - std::max(c.weft_body[k], c.warp_body[k]));
     }
     return c;
 }

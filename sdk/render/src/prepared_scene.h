@@ -103,12 +103,17 @@ struct PreparedScene {
     Fabric as_printed(const Cloth &cloth, const SpectralBasis &basis) const;
 
     std::vector<Cloth> cloths_{};
-    std::vector<std::vector<Sides>> sides_{};      // per object, per panel; one where all are alike
-    std::vector<MipTexture> textures_{};           // of the scene, where there are prints
-    std::vector<PreparedOpacity> opacities_{};     // of the scene
-    std::vector<PreparedPrint> prints_{};          // of the scene
-    std::vector<ChannelValues> dyes_{};            // of the fabrics, below prints
-    std::vector<std::vector<glm::vec2>> of_dye_{}; // per cloth, see Material
+    std::vector<std::vector<Sides>> sides_{};  // per object, per panel; one where all are alike
+    std::vector<MipTexture> textures_{};       // of the scene, where there are prints
+    std::vector<PreparedOpacity> opacities_{}; // of the scene
+    std::vector<PreparedPrint> prints_{};      // of the scene
+    struct Dyes {
+        ChannelValues weft{}, warp{};
+    };
+    std::vector<Dyes> dyes_{}; // of the fabrics, below prints
+    // Of each cloth, see Material
+    std::vector<std::vector<glm::vec2>> of_dye_{};
+    std::vector<float> weft_share_{};
     int channels_ = 0;
     float pixel_angle_ = 0;
 };

@@ -32,6 +32,10 @@ std::string lengths_text() {
 
 std::string radiances_text() { return "expected 0 to " + number_text(kLargestRadiance); }
 
+std::string size_text(const Texture &picture) {
+    return std::to_string(picture.width) + " x " + std::to_string(picture.height);
+}
+
 // Collects the broken rules of a scene.
 struct SceneCheck {
     const Scene &scene;
@@ -78,15 +82,17 @@ struct SceneCheck {
         check_fabric_of(dressed.fabric, surface, where, ".fabric");
         if (dressed.back)
             check_fabric_of(*dressed.back, surface, where, ".back");
-        if (dressed.print)
-            need(dressed.print->value < scene.prints.size(),
-                 "no print " + std::to_string(dressed.print->value), where + ".print",
-                 "expected an index below " + std::to_string(scene.prints.size()));
+        for (const auto &print : {dressed.print, dressed.back_print})
+            if (print)
+                need(print->value < scene.prints.size(), "no print " + std::to_string(print->value),
+                     where + ".print",
+                     "expected an index below " + std::to_string(scene.prints.size()));
         if (dressed.opacity)
             need(dressed.opacity->value < scene.opacities.size(),
                  "no opacity " + std::to_string(dressed.opacity->value), where + ".opacity",
                  "expected an index below " + std::to_string(scene.opacities.size()));
-        need(!surface || !surface->uv.empty() || !(dressed.print || dressed.opacity),
+        need(!surface || !surface->uv.empty() ||
+                 !(dressed.print || dressed.back_print || dressed.opacity),
              "the surface has no UV for a picture", where, "expected the UVs of the panels");
     }
 
@@ -137,11 +143,19 @@ struct SceneCheck {
         for (std::size_t i = 0; i < print.layers.size(); ++i) {
             const PrintLayer &layer = print.layers[i];
             const std::string place = where + ".layers[" + std::to_string(i) + "]";
-            if (!need(layer.picture.value < scene.textures.size(),
+            if (!need(layer.picture.value < scene.textures.size() &&
+                          print.layers.front().picture.value < scene.textures.size(),
                       "no texture " + std::to_string(layer.picture.value), place,
                       "expected an index below " + std::to_string(scene.textures.size())))
                 continue;
-            const std::size_t inks = scene.textures[layer.picture.value].channels == 1 ? 1 : 8;
+            const Texture &picture = scene.textures[layer.picture.value];
+            const Texture &first = scene.textures[print.layers.front().picture.value];
+            need(std::abs(static_cast<double>(picture.width) * first.height -
+                          static_cast<double>(first.width) * picture.height) <=
+                     0.01 * first.width * picture.height,
+                 "the picture is " + size_text(picture) + ", the first one " + size_text(first),
+                 place, "expected pictures of one shape, because they lie alike");
+            const std::size_t inks = picture.channels == 1 ? 1 : 8;
             need(layer.inks.size() == inks,
                  "the layer has " + detail::counted(layer.inks.size(), "ink"), place,
                  "expected " + std::to_string(inks) + " for this picture");

@@ -41,8 +41,8 @@ struct FrameReport {
 /// and unit; weft = dP/du in the tangent plane, unit, so that the shear of the drape remains. Where
 /// the grain is turned, the UV of the surface turns with it: u runs along the weft, v along the
 /// warp. Mirrored UVs keep their warp; the weft is then -dP/du, so that weft x warp is always on
-/// the side of the normal. Where the UV is degenerate, directions spread from the nearest valid
-/// vertices of the same panel.
+/// the side of the normal, and the surface has -u, so that a picture on the cloth reads right.
+/// Where the UV is degenerate, directions spread from the nearest valid vertices of the same panel.
 /// Throws Error naming `where` if the degenerate share is above its limit or `grain` names an
 /// unknown panel; Interrupted.
 Surface add_frames(LimitMesh mesh, const FrameOptions &options, FrameReport &report,

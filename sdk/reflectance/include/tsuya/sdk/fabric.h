@@ -170,6 +170,7 @@ struct Material {
     /// Albedo of the Lambertian part (x) and colour of the body (y) of another dye on this cloth,
     /// by its reflectance from 0 to 1 in equal steps, for prints
     std::vector<glm::vec2> of_dye{};
+    double weft_share = 0.5; ///< of the weft in what both systems show, see YarnLobes
 
     bool has_diffuse() const;  ///< Lambertian: dye or transmittance
     bool has_specular() const; ///< with a colour

@@ -30,9 +30,10 @@ inline constexpr double kSmallestLight = 1e-14; ///< area of a rectangle, square
 struct PanelFabric {
     std::uint32_t panel = 0; ///< of the surface's
     FabricIndex fabric{};
-    std::optional<FabricIndex> back{};     ///< as Object::back
-    std::optional<PrintIndex> print{};     ///< as Object::print
-    std::optional<OpacityIndex> opacity{}; ///< as Object::opacity
+    std::optional<FabricIndex> back{};      ///< as Object::back
+    std::optional<PrintIndex> print{};      ///< as Object::print
+    std::optional<PrintIndex> back_print{}; ///< as Object::back_print
+    std::optional<OpacityIndex> opacity{};  ///< as Object::opacity
 };
 
 /// A surface dressed in a fabric.
@@ -47,6 +48,7 @@ struct Object {
     /// What is printed on the fabric, in place of its dye; it shows on the fabric's own back as
     /// well. For surfaces with UVs.
     std::optional<PrintIndex> print{};
+    std::optional<PrintIndex> back_print{}; ///< on `back`, where that is another fabric
     /// Where the cloth has holes; empty: nowhere. For surfaces with UVs. Paths go through a hole or
     /// not by chance, light to a point is weakened by what lies on its way.
     std::optional<OpacityIndex> opacity{};

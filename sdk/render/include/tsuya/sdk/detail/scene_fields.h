@@ -64,21 +64,23 @@ template <class F, detail::MaybeConst<Opacity> T> void each_field(F &&f, T &opac
 }
 
 template <class F, detail::MaybeConst<PanelFabric> T> void each_field(F &&f, T &panel_fabric) {
-    auto &[panel, fabric, back, print, opacity] = panel_fabric;
+    auto &[panel, fabric, back, print, back_print, opacity] = panel_fabric;
     f(detail::Field{"panel"}, panel);
     f(detail::Field{"fabric"}, fabric);
     f(detail::Field{"back"}, back);
     f(detail::Field{"print"}, print);
+    f(detail::Field{"back_print"}, back_print);
     f(detail::Field{"opacity"}, opacity);
 }
 
 template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &object) {
-    auto &[name, surface, fabric, back, print, opacity, panels] = object;
+    auto &[name, surface, fabric, back, print, back_print, opacity, panels] = object;
     f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"surface"}, surface);
     f(detail::Field{"fabric"}, fabric);
     f(detail::Field{"back"}, back);
     f(detail::Field{"print"}, print);
+    f(detail::Field{"back_print"}, back_print);
     f(detail::Field{"opacity"}, opacity);
     f(detail::Field{"panels"}, panels);
 }
