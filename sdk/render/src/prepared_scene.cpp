@@ -162,17 +162,19 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
         colours.push_back(exchanged(colours[i]));
 }
 
-// With the mean of the print as its dye: so it has the parts that the print needs, and samples them
-// in due proportion.
+// With the mean of the print and of its own as its dye: so it has the parts that both need, samples
+// them in due proportion, and the dyes of a shot cloth stay apart.
 Fabric PreparedScene::as_printed(const Cloth &cloth, const SpectralBasis &basis) const {
     Fabric fabric = scene.fabrics[cloth.fabric];
-    const auto mean = [&](ChannelValues dye) {
+    const auto mean = [&](const ChannelValues &own) {
+        ChannelValues dye = own;
         prints_[*cloth.print].mean_dye(dye);
         Spectrum spectrum{{}, {}};
         for (int k = 0; k < basis.count; ++k) {
             spectrum.wavelength_nm.push_back(basis.centre_nm(k));
+            const auto i = static_cast<std::size_t>(k);
             spectrum.value.push_back(
-                static_cast<double>(std::clamp(dye[static_cast<std::size_t>(k)], 0.0f, 1.0f)));
+                static_cast<double>(std::clamp(0.5f * (own[i] + dye[i]), 0.0f, 1.0f)));
         }
         return spectrum;
     };
