@@ -6,6 +6,7 @@
 #include "fabric_options.h"
 #include "grain_option.h"
 #include "look_options.h"
+#include "same_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/detail/threads.h"
@@ -134,6 +135,7 @@ struct TryOn final : Command {
             job.dyes.clear(); // its own
         job.invented_grain = parse_grain(grain);
         job.up = stated_up(up);
+        check_results();
         job.look = look.look();
         job.render.stop.relative_error = error;
         if (samples)
@@ -142,6 +144,22 @@ struct TryOn final : Command {
         detail::run_with_threads(job.render.threads,
                                  [&] { result = scene::run(job, console.progress()); });
         return report(result, console);
+    }
+
+    /// Throws WrongCall if a result would replace a file that is read.
+    void check_results() const {
+        std::vector<std::filesystem::path> read{job.garment, job.body, job.fabric, job.back,
+                                                job.pattern};
+        read.insert(read.end(), job.frames.begin(), job.frames.end());
+        read.insert(read.end(), job.dyes.begin(), job.dyes.end());
+        read.insert(read.end(), job.lamps.begin(), job.lamps.end());
+        for (const scene::PanelCloth &panel : job.panels)
+            read.insert(read.end(), {panel.fabric, panel.back});
+        for (const std::filesystem::path &result : scene::replaced_files(job))
+            for (const std::filesystem::path &file : read)
+                if (!file.empty() && is_same_file(result, file))
+                    throw WrongCall({"it would replace " + file.string() + ", which is read",
+                                     result.string(), "expected another folder"});
     }
 
     Status report(const scene::TryOnResult &result, Console &console) const {

@@ -136,6 +136,46 @@ TEST(Explain, RefusesWhatARenderRefuses) {
     EXPECT_NE(outcome.err.find("dye and transmittance"), std::string::npos) << outcome.err;
 }
 
+TEST(WrongCall, NoResultReplacesWhatTheTryOnReads) {
+    const Scratch scratch;
+    const std::string mesh = scratch.write("cloth.obj", scene::cloth_obj()).string();
+    const std::string out = (scratch / "o").string();
+    fs::create_directories(out);
+    const auto refuses = [&](const fs::path &file, const std::vector<std::string> &more) {
+        const std::string before = read_file(file);
+        std::vector<std::string> call{"tryon",   "--garment", mesh,    "--dye", "white",
+                                      "--lamps", "A",         "--spp", "1",     "--width",
+                                      "16",      "--height",  "20",    "-o",    out};
+        call.insert(call.end(), more.begin(), more.end());
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 2) << file << outcome.err;
+        EXPECT_NE(outcome.err.find("it would replace " + file.string()), std::string::npos)
+            << outcome.err;
+        EXPECT_EQ(read_file(file), before) << file;
+    };
+    Image image = Image::make(2, 2, {"R", "G", "B"});
+    for (const char *name : {"sheet.png", "white-A.png"}) {
+        const fs::path picture = fs::path(out) / name;
+        write_png(picture, image);
+        refuses(picture, {"--pattern", picture.string()});
+    }
+    const fs::path numbered = fs::path(out) / "white-A-0001.png";
+    write_png(numbered, image);
+    refuses(numbered, {"--frames", mesh, "--pattern", numbered.string()});
+    // By another name
+    const std::string fabric =
+        scratch
+            .write("f.fabric.toml",
+                   read_file(scene::data_folder() / "fabrics" / "black_taffeta.fabric.toml"))
+            .string();
+    fs::create_symlink(fabric, fs::path(out) / "white.exr");
+    refuses(fabric, {"--fabric", fabric});
+    const std::string body = scratch.write("body.obj", scene::cloth_obj()).string();
+    fs::remove(fs::path(out) / "white.exr");
+    fs::create_hard_link(body, fs::path(out) / "white.exr");
+    refuses(body, {"--body", body});
+}
+
 // A file's name is bytes, JSON is UTF-8.
 TEST(Reports, NameFilesThatAreNoUtf8) {
     const Scratch scratch;

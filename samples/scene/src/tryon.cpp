@@ -39,9 +39,12 @@ struct NamedDye {
     std::optional<Spectrum> spectrum; ///< empty: the fabric's own
 };
 
+/// What the files of a fabric's own dye are named after.
+std::string own_dye_name(const TryOn &job) { return job.fabric.stem().stem().string(); }
+
 std::vector<NamedDye> parse_dyes(const TryOn &job) {
     if (job.dyes.empty())
-        return {{job.fabric.stem().stem().string(), std::nullopt}};
+        return {{own_dye_name(job), std::nullopt}};
     check_dyes(job.dyes);
     std::vector<NamedDye> dyes;
     for (const std::string &spec : job.dyes)
@@ -163,15 +166,35 @@ std::string number_of(std::size_t frame) {
     return "-" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
 }
 
+constexpr const char *kSheet = "sheet.png";
+
+std::string transport_name(const std::string &dye, const std::string &number) {
+    return dye + number + ".exr";
+}
+
+std::string picture_name(const std::string &dye, const std::string &lamp,
+                         const std::string &number) {
+    return dye + "-" + lamp + number + ".png";
+}
+
+/// The number of a frame at the end of a file's name, as number_of writes it; empty where there is
+/// none.
+std::string number_in(const fs::path &file) {
+    const std::string stem = file.stem().string();
+    const std::size_t dash = stem.find_last_not_of("0123456789");
+    const bool numbered = dash != std::string::npos && stem[dash] == '-' && stem.size() - dash > 4;
+    return numbered ? stem.substr(dash) : "";
+}
+
 /// \param number of the frame, `-0000`, or empty
 void write_pictures(const SpectralImage &image, const std::string &name, const std::string &number,
                     const std::vector<NamedLamp> &lamps, const TryOn &job, Sheet &sheet,
                     TryOnResult &result) {
-    result.files.push_back(job.output / (name + number + ".exr"));
+    result.files.push_back(job.output / transport_name(name, number));
     write_spectral_exr(result.files.back(), image);
     for (const NamedLamp &lamp : lamps) {
         Image picture = picture_under(image, {&lamp, 1}, job.look);
-        result.files.push_back(job.output / (name + "-" + lamp.name + number + ".png"));
+        result.files.push_back(job.output / picture_name(name, lamp.name, number));
         write_png(result.files.back(), picture);
         if (number.empty())
             sheet.pictures.push_back({std::move(picture), caption_of(lamp)});
@@ -278,6 +301,32 @@ void check_dyes(const std::vector<std::string> &specs) {
     }
 }
 
+std::vector<fs::path> replaced_files(const TryOn &job) {
+    const bool one_shape = job.frames.empty(), numbered = !one_shape || job.morph_targets;
+    std::vector<std::string> dyes{own_dye_name(job)};
+    if (!job.dyes.empty()) {
+        dyes.clear();
+        std::transform(job.dyes.begin(), job.dyes.end(), std::back_inserter(dyes), file_stem_of);
+    }
+    const auto is_result = [&](const std::string &name, const std::string &number) {
+        return std::any_of(dyes.begin(), dyes.end(), [&](const std::string &dye) {
+            return name == transport_name(dye, number) ||
+                   std::any_of(job.lamps.begin(), job.lamps.end(), [&](const std::string &lamp) {
+                       return name == picture_name(dye, file_stem_of(lamp), number);
+                   });
+        });
+    };
+    std::vector<fs::path> replaced;
+    std::error_code code;
+    for (fs::directory_iterator at(job.output, code), end; !code && at != end; at.increment(code)) {
+        const std::string name = at->path().filename().string(), number = number_in(name);
+        if ((one_shape && (name == kSheet || is_result(name, ""))) ||
+            (numbered && !number.empty() && is_result(name, number)))
+            replaced.push_back(at->path());
+    }
+    return replaced;
+}
+
 TryOn sample_try_on(const fs::path &data) {
     return {.garment = data / "dress" / "dress.obj",
             .body = data / "dress" / "mannequin.obj",
@@ -331,7 +380,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
                        result);
     }
     if (!result.interrupted && !show) {
-        result.files.push_back(job.output / "sheet.png");
+        result.files.push_back(job.output / kSheet);
         write_png(result.files.back(), draw_sheet(sheet));
     }
     return result;

@@ -111,4 +111,8 @@ struct TryOnResult {
 /// nothing written for any wrong value of the job.
 TryOnResult run(const TryOn &job, const Progress &progress = {});
 
+/// The files in the output folder that have the names of results, which `run` may replace. How many
+/// frames there are is not looked up: all numbers count.
+std::vector<std::filesystem::path> replaced_files(const TryOn &job);
+
 } // namespace tsuya::scene
