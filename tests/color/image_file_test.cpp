@@ -11,6 +11,8 @@
 
 #include "color_test.h"
 #include "limited_disk.h"
+#include "tsuya/color/camera_frame.h"
+#include "tsuya/color/print_file.h"
 #include "tsuya/sdk/detail/threads.h"
 
 namespace tsuya {
@@ -295,6 +297,37 @@ TEST(ImageFile, ALimitOfFileSizesKeepsTheOldFile) {
         EXPECT_EQ(read_image(path).width, 4);
     }
     EXPECT_EQ(folder.size(), 2);
+}
+
+/// The process has at most so many bytes more than now while it lives.
+class MemoryLimit {
+  public:
+    explicit MemoryLimit(rlim_t bytes) {
+        getrlimit(RLIMIT_AS, &saved_);
+        rlim_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlimit limit{pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes,
+                           saved_.rlim_max};
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    ~MemoryLimit() { setrlimit(RLIMIT_AS, &saved_); }
+    MemoryLimit(const MemoryLimit &) = delete;
+    MemoryLimit &operator=(const MemoryLimit &) = delete;
+
+  private:
+    rlimit saved_{};
+};
+
+// A header may declare any size.
+TEST(ImageFile, APictureThatDoesNotFitIntoTheMemoryIsNamed) {
+    const test::Folder folder;
+    write_png(folder / "loads_the_module.png", ramp(4, 4, {"Y"}));
+    const auto picture = folder.write("p.pnm", "P6\n60000 60000\n65535\n");
+    const std::string says = "60000 x 60000 pixels of 3 channels need ";
+    const MemoryLimit limit(1'000'000'000);
+    test::expect_problem([&] { read_image(picture); }, picture.string(), says);
+    test::expect_problem([&] { read_artwork(picture); }, picture.string(), says);
+    test::expect_problem([&] { read_frame(picture, {}); }, picture.string(), says);
 }
 
 TEST(ImageFile, RefusesWrongPictures) {

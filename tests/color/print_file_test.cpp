@@ -1,6 +1,9 @@
 #include "tsuya/color/print_file.h"
 
 #include <filesystem>
+#include <limits>
+
+#include <sys/resource.h>
 
 #include <gtest/gtest.h>
 

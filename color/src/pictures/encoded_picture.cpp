@@ -18,11 +18,13 @@ EncodedPicture read_encoded_picture(const std::filesystem::path &path) {
                            .height = spec.height,
                            .channels = spec.nchannels,
                            .alpha = spec.alpha_channel};
+    const bool floats = spec.format.is_floating_point();
+    need_memory_for(path, spec, spec.height, 1 + (floats ? sizeof(float) : 0));
     const std::size_t count = static_cast<std::size_t>(spec.width) *
                               static_cast<std::size_t>(spec.height) *
                               static_cast<std::size_t>(spec.nchannels);
     picture.data.resize(count);
-    if (!spec.format.is_floating_point()) {
+    if (!floats) {
         if (!in->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, picture.data.data()))
             fail_reading(path, in->geterror());
         return picture;

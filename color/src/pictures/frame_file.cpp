@@ -103,6 +103,7 @@ Image OiioFrame::read(const PixelArea &area) {
     const OIIO::ImageSpec &spec = file_->spec();
     const auto channels = static_cast<std::size_t>(spec.nchannels);
     const std::size_t row = static_cast<std::size_t>(spec.width) * channels;
+    need_memory_for(path_, spec, area.height, 2 * sizeof(float)); // the rows and the area
     std::vector<float> rows(row * static_cast<std::size_t>(area.height));
     if (!file_->read_scanlines(0, 0, area.y, area.y + area.height, 0, 0, spec.nchannels,
                                OIIO::TypeDesc::FLOAT, rows.data()))

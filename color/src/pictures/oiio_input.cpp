@@ -4,6 +4,8 @@
 
 #include <tbb/task_arena.h>
 
+#include "tsuya/sdk/detail/counted.h"
+#include "tsuya/sdk/detail/memory.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -35,6 +37,16 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path
     if (spec.deep || spec.depth > 1)
         throw Error({"the picture is deep or a volume", path.string(), "expected a flat picture"});
     return input;
+}
+
+void need_memory_for(const std::filesystem::path &path, const OIIO::ImageSpec &spec, int rows,
+                     std::size_t bytes_a_sample) {
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    detail::need_memory(static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(rows) *
+                            channels * bytes_a_sample,
+                        std::to_string(spec.width) + " x " + std::to_string(rows) + " pixels of " +
+                            detail::counted(channels, "channel"),
+                        path.string(), "expected a smaller picture");
 }
 
 void fail_reading(const std::filesystem::path &path, const std::string &cause) {

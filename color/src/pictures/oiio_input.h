@@ -24,6 +24,12 @@ void use_threads_of_arena();
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path,
                                                const OIIO::ImageSpec *config = nullptr);
 
+/// Throws Error at the path where the memory for some rows of a picture is not available: its
+/// header may declare any size.
+/// \param bytes_a_sample of all that the rows are kept in
+void need_memory_for(const std::filesystem::path &path, const OIIO::ImageSpec &spec, int rows,
+                     std::size_t bytes_a_sample);
+
 /// Throws the Error of a picture that ended early or cannot be decoded.
 [[noreturn]] void fail_reading(const std::filesystem::path &path, const std::string &cause);
 

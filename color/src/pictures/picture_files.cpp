@@ -108,6 +108,7 @@ InputPicture read_picture(const std::filesystem::path &path) {
     const OIIO::ImageSpec &spec = in->spec();
     InputPicture picture;
     picture.format = in->format_name();
+    need_memory_for(path, spec, spec.height, sizeof(float));
     picture.image = Image::make(spec.width, spec.height, spec.channelnames);
     for (const OIIO::ParamValue &value : spec.extra_attribs)
         if (value.type() == OIIO::TypeDesc::STRING)
