@@ -330,6 +330,16 @@ TEST(ImageFile, APictureThatDoesNotFitIntoTheMemoryIsNamed) {
     test::expect_problem([&] { read_frame(picture, {}); }, picture.string(), says);
 }
 
+TEST(ImageFile, ACauseIsToldOnce) {
+    const test::Folder folder;
+    write_png(folder / "p.png", ramp(64, 64, {"R", "G", "B"}));
+    std::filesystem::resize_file(folder / "p.png", 100);
+    const std::string text = test::error_of([&] { read_image(folder / "p.png"); }).what();
+    const std::size_t cause = text.find("Read error: hit end of file");
+    ASSERT_NE(cause, std::string::npos) << text;
+    EXPECT_EQ(text.find("Read error: hit end of file", cause + 1), std::string::npos) << text;
+}
+
 TEST(ImageFile, RefusesWrongPictures) {
     const test::Folder folder;
     const auto png = folder / "p.png";

@@ -1,6 +1,8 @@
 #include "pictures/oiio_input.h"
 
 #include <algorithm>
+#include <sstream>
+#include <vector>
 
 #include <tbb/task_arena.h>
 
@@ -10,9 +12,22 @@
 
 namespace tsuya {
 
-std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.empty() ? "unknown cause" : text;
+std::string one_line(const std::string &text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+        lines.push_back(line);
+    std::string all;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const bool told = all.find(lines[i]) != std::string::npos ||
+                          std::any_of(lines.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                      lines.end(), [&](const std::string &later) {
+                                          return later.find(lines[i]) != std::string::npos;
+                                      });
+        if (!told)
+            all += (all.empty() ? "" : "; ") + lines[i];
+    }
+    return all.empty() ? "unknown cause" : all;
 }
 
 void use_threads_of_arena() {

@@ -11,8 +11,8 @@
 
 namespace tsuya {
 
-/// OpenImageIO's message on one line.
-std::string one_line(std::string text);
+/// OpenImageIO's message on one line. A part that another part repeats is left out.
+std::string one_line(const std::string &text);
 
 /// Gives OpenImageIO and OpenEXR as many threads as the caller's arena has, see
 /// detail::run_with_threads. The number is the library's own and global: of two callers at once,
