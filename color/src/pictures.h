@@ -35,7 +35,11 @@ struct InputPicture {
     std::map<std::string, std::string> attributes{};
 };
 
-/// A picture of 8 bits a sample; floats are encoded as sRGB. Alpha is not multiplied into colours.
+/// What floats, which are linear, become in 8 bits: colours by the curve of sRGB, shares as they
+/// are. Alpha is a share in both.
+enum class FloatCode { srgb, linear };
+
+/// A picture of 8 bits a sample. Alpha is not multiplied into colours.
 struct EncodedPicture {
     int width = 0, height = 0, channels = 0;
     int alpha = -1; ///< its channel; -1: none
@@ -72,7 +76,9 @@ class Pictures {
     virtual void write_png(const std::filesystem::path &path, const Image &shape, int bits,
                            const void *samples) const = 0;
     virtual InputPicture read(const std::filesystem::path &path) const = 0;
-    virtual EncodedPicture read_encoded(const std::filesystem::path &path) const = 0;
+    /// Floats are clamped to [0, 1]; one that is not a number is an Error.
+    virtual EncodedPicture read_encoded(const std::filesystem::path &path,
+                                        FloatCode floats) const = 0;
     virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
     /// Width and height of a text in pixels. Throws Error at `sheet.font`.
     virtual std::array<int, 2> text_size(const std::string &text, int size,

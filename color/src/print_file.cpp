@@ -22,8 +22,8 @@ std::uint8_t sample(const EncodedPicture &picture, std::size_t pixel, int channe
                         static_cast<std::size_t>(channel)];
 }
 
-EncodedPicture read_grey_or_rgb(const std::filesystem::path &path) {
-    EncodedPicture picture = pictures().read_encoded(path);
+EncodedPicture read_grey_or_rgb(const std::filesystem::path &path, FloatCode floats) {
+    EncodedPicture picture = pictures().read_encoded(path, floats);
     if (colours(picture) != 1 && colours(picture) != 3)
         throw Error({"the picture has " + std::to_string(colours(picture)) + " colour channels",
                      path.string(), "expected grey or R, G, B, and alpha if wanted"});
@@ -33,7 +33,7 @@ EncodedPicture read_grey_or_rgb(const std::filesystem::path &path) {
 } // namespace
 
 Texture read_artwork(const std::filesystem::path &path) {
-    EncodedPicture samples = read_grey_or_rgb(path);
+    EncodedPicture samples = read_grey_or_rgb(path, FloatCode::srgb);
     const bool grey = colours(samples) == 1;
     Texture texture{
         .width = samples.width, .height = samples.height, .channels = samples.alpha >= 0 ? 4 : 3};
@@ -55,7 +55,7 @@ Texture read_artwork(const std::filesystem::path &path) {
 }
 
 Texture read_coverage(const std::filesystem::path &path) {
-    const EncodedPicture samples = read_grey_or_rgb(path);
+    const EncodedPicture samples = read_grey_or_rgb(path, FloatCode::linear);
     Texture texture{.width = samples.width, .height = samples.height, .channels = 1};
     texture.data.reserve(pixels(samples));
     for (std::size_t p = 0; p < pixels(samples); ++p) {

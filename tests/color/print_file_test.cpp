@@ -66,6 +66,25 @@ TEST_F(PrintFile, CoverageIsGreyWhereThereIsNoAlpha) {
     EXPECT_THROW(read_artwork(folder / "none.png"), Error);
 }
 
+// Floats are linear: half a coverage is half of 255, whatever curve the code of a colour has.
+TEST_F(PrintFile, FloatsAreCoverageAsTheyAre) {
+    Image exr = Image::make(4, 1, {"Y"});
+    exr.data = {0.5f, 0, 1, 2};
+    write_exr(folder / "a.exr", exr);
+    EXPECT_EQ(read_coverage(folder / "a.exr").data, (Bytes{128, 0, 255, 255}));
+    exr.data[2] = std::numeric_limits<float>::quiet_NaN();
+    write_exr(folder / "a.exr", exr);
+    for (const auto read : {read_coverage, read_artwork}) {
+        try {
+            read(folder / "a.exr");
+            ADD_FAILURE() << "no error";
+        } catch (const Error &error) {
+            EXPECT_EQ(error.problems()[0].where, (folder / "a.exr").string());
+            EXPECT_EQ(error.problems()[0].what, "the pixel at column 2, row 0 is not a number");
+        }
+    }
+}
+
 // A mixture of the inks has the colour that is asked for, and is a reflectance.
 TEST_F(PrintFile, MixturesOfInksHaveTheirColour) {
     const std::vector<Spectrum> inks = rgb_inks();

@@ -17,8 +17,9 @@ class OiioPictures final : public Pictures {
     InputPicture read(const std::filesystem::path &path) const override {
         return read_picture(path);
     }
-    EncodedPicture read_encoded(const std::filesystem::path &path) const override {
-        return read_encoded_picture(path);
+    EncodedPicture read_encoded(const std::filesystem::path &path,
+                                FloatCode floats) const override {
+        return read_encoded_picture(path, floats);
     }
     std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const override {
         return open_frame_file(path);

@@ -12,11 +12,12 @@ namespace tsuya {
 
 /// Reads any picture that OpenImageIO reads as artwork in colour: R, G, B encoded as sRGB, with how
 /// much they cover where the file has alpha; grey files as three equal channels. Float files are
-/// linear, and encoded here. Throws Error at the path.
+/// linear, and encoded here. Throws Error at the path, also for a float that is not a number.
 Texture read_artwork(const std::filesystem::path &path);
 
 /// Reads a picture as how much of the cloth is covered: its alpha if it has one, else its grey (the
-/// mean of R, G and B), 0 none and 255 all. Throws Error at the path.
+/// mean of R, G and B), 0 none and 255 all. Floats are taken as they are: 0.5 is half. Throws as
+/// read_artwork.
 Texture read_coverage(const std::filesystem::path &path);
 
 /// Reflectances of the corners of the cube of linear Rec. 709 RGB, as PrintLayer::inks has them: of
