@@ -50,6 +50,30 @@ constexpr int kPlainStep = 10; // percent between lines
 
 } // namespace
 
+std::string shown(std::string_view text, std::string_view kept) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    const auto byte_at = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0xFFu;
+    };
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const unsigned byte = byte_at(i);
+        const bool c0 = (byte < 0x20 || byte == 0x7F) && kept.find(text[i]) == kept.npos;
+        // U+0080 to U+009F
+        const bool c1 = byte == 0xC2 && byte_at(i + 1) >= 0x80 && byte_at(i + 1) < 0xA0;
+        const std::size_t count = c0 ? 1 : c1 ? 2 : 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            out += "\\x";
+            out += kDigits[byte_at(i + k) >> 4];
+            out += kDigits[byte_at(i + k) & 15];
+        }
+        if (count == 0)
+            out += text[i];
+        i += count == 2 ? 1 : 0;
+    }
+    return out;
+}
+
 ProgressMode parse_progress_mode(const std::string &name) {
     if (name == "auto")
         return isatty(STDERR_FILENO) != 0 ? ProgressMode::bar : ProgressMode::off;
@@ -113,11 +137,11 @@ void Console::report(std::string_view stage, double fraction) {
         std::cerr << line.one_line() + "\n";
     } else if (mode_ == ProgressMode::plain) {
         if (new_step)
-            std::cerr << stage_ + " " + std::to_string(percent) + " %\n";
+            std::cerr << shown(stage_) + " " + std::to_string(percent) + " %\n";
     } else {
         const auto full = static_cast<std::size_t>(percent * kBarWidth / 100);
         std::cerr << "\r\033[K[" + std::string(full, '#') + std::string(kBarWidth - full, ' ') +
-                         "] " + std::to_string(percent) + " % " + stage_
+                         "] " + std::to_string(percent) + " % " + shown(stage_)
                   << std::flush;
         line_open_ = true;
     }
@@ -131,7 +155,7 @@ void Console::end_line() {
 
 void Console::error(std::string_view text) {
     end_line();
-    std::cerr << "tsuya: " << text << "\n";
+    std::cerr << "tsuya: " << shown(text, "\n\t") << "\n";
 }
 
 void Console::error(const Problem &problem) { error(text_of(problem)); }

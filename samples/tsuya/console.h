@@ -40,6 +40,11 @@ class SignalShield {
 /// Lets SIGUSR1 set the flag that is returned, again and again.
 std::atomic<bool> &watch_snapshot_signal();
 
+/// Text of a file as a terminal may have it: control characters, which could move its cursor or
+/// change its colours, become such as `\x1B`.
+/// \param kept control characters that stay
+std::string shown(std::string_view text, std::string_view kept = {});
+
 class Console {
   public:
     void set_mode(ProgressMode mode) { mode_ = mode; }
@@ -47,6 +52,7 @@ class Console {
     /// its kind ends the process. The console must outlive it.
     Progress progress();
 
+    /// Errors and warnings are escaped as by `shown`.
     void error(const Problem &problem);
     /// All problems of an error, one a line
     void errors(const Error &error);

@@ -75,8 +75,10 @@ struct GarmentCheck final : Command {
             print_panel(p);
         for (const garment::Finding &f : r.findings)
             std::cout << (f.severity == garment::Severity::warning ? "warning " : "note ") << f.key
-                      << ": " << f.what << (f.where.empty() ? "" : " (" + f.where + ")")
-                      << (f.action.empty() ? "" : "; " + f.action) << "\n";
+                      << ": "
+                      << shown(f.what + (f.where.empty() ? "" : " (" + f.where + ")") +
+                               (f.action.empty() ? "" : "; " + f.action))
+                      << "\n";
         if (r.findings.empty())
             std::cout << "nothing is wrong\n";
     }
@@ -99,8 +101,8 @@ struct GarmentCheck final : Command {
     /// PANEL=FABRIC.
     static void print_panel(const garment::PanelReport &p) {
         const glm::dvec3 size = p.upper - p.lower;
-        std::cout << "  panel " << p.name << names_of(p) << ": " << counted(p.faces, "face") << ", "
-                  << p.area << " m2, " << size.x << " x " << size.y << " x " << size.z
+        std::cout << "  panel " << shown(p.name + names_of(p)) << ": " << counted(p.faces, "face")
+                  << ", " << p.area << " m2, " << size.x << " x " << size.y << " x " << size.z
                   << " m about (" << 0.5 * (p.lower.x + p.upper.x) << ", "
                   << 0.5 * (p.lower.y + p.upper.y) << ", " << 0.5 * (p.lower.z + p.upper.z) << ")";
         if (p.warp != glm::dvec3(0))

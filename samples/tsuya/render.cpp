@@ -122,7 +122,7 @@ struct Render final : Command {
     }
 
     static void explain_plan(const scene::BuiltScene &built, const RenderSettings &settings) {
-        std::cout << explain(plan(built.scene, settings));
+        std::cout << shown(explain(plan(built.scene, settings)), "\n");
         for (const scene::MeshReport &mesh : built.reports)
             std::cout << detail::counted(mesh.report.limit_triangles, "triangle") << " of "
                       << detail::counted(mesh.report.faces, "face") << ": " << mesh.mesh.string()

@@ -38,6 +38,32 @@ TEST(ForeignMesh, AKoreanNameIsShownEscaped) {
     EXPECT_NE(report.find("\\\\xBE\\\\xD5"), std::string::npos) << report;
 }
 
+// They could move the cursor of a terminal or change its colours.
+TEST(ForeignMesh, ControlCharactersInNamesAreShownEscaped) {
+    const Scratch scratch;
+    const std::string name = "a\x1b[31m\x7f\xC2\x9B"
+                             "1m \xE5\xB8\x83";
+    const std::string escaped = "a\\x1B[31m\\x7F\\xC2\\x9B1m \xE5\xB8\x83";
+    const std::string mesh =
+        scratch
+            .write("m.obj", "o " + name + "\ng " + name +
+                                "\nv 0 0 0\nv 0.5 0 0\nv 0.5 0.7 0\nv 0 0.7 0\nf 1 2 3 4\n"
+                                "g " +
+                                name + "2\nf 1 3 2\nf 1 2 3\nf 1 2 4\n")
+            .string();
+    const Outcome checked = run_program({"garment", "check", mesh}, scratch.folder());
+    EXPECT_NE(checked.out.find("panel " + escaped), std::string::npos);
+    const Outcome refused =
+        run_program({"tryon", "--garment", mesh, "--grain", "vertical", "--fabric",
+                     "none*=black_satin", "-o", (scratch / "out").string()},
+                    scratch.folder());
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find(escaped), std::string::npos) << refused.err;
+    for (const std::string &said : {checked.out, refused.err})
+        for (const char *control : {"\x1b", "\x7f", "\xC2\x9B"})
+            EXPECT_EQ(said.find(control), std::string::npos) << said;
+}
+
 // A tube along z with two openings, 0.6 m high.
 std::string tube_along_z() {
     std::string text;
