@@ -41,6 +41,8 @@ void check_display_image(const Image &image, const std::string &where) {
 
 } // namespace
 
+void check_pictures() { pictures(); }
+
 void write_png(const std::filesystem::path &path, const Image &image, int bits) {
     check_display_image(image, path.string());
     if (bits == 8)

@@ -9,6 +9,7 @@
 #include "command.h"
 #include "look_options.h"
 #include "table_input.h"
+#include "tsuya/color/image_file.h"
 #include "tsuya/color/srgb.h"
 #include "tsuya/lab/weave_picture.h"
 #include "tsuya/scene/body_plot.h"
@@ -130,6 +131,7 @@ struct FabricShow final : Command {
     void show_weave(Console &console) {
         const lab::Weave weave = weave_named(weave_name);
         scene::prepare_output_file(output);
+        check_pictures();
         settings.height = settings.width;
         settings.across = across_mm * 1e-3;
         settings.tilt = tilt_deg * kDegree;

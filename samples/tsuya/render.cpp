@@ -172,6 +172,7 @@ struct Render final : Command {
         if (output.empty())
             throw WrongCall({"it is missing", "--output", "expected -o OUT.exr, or --explain"});
         scene::check_output_file(output);
+        check_pictures();
     }
 
     /// What the scene names adds results, and files that they must not replace.

@@ -104,6 +104,29 @@ TEST(WrongInput, PlacesThatCannotBeWrittenAreToldFirst) {
     EXPECT_EQ(scratch.file_count(), 2U); // the scene and its mesh
 }
 
+// As the places: in an installation without its folder lib/tsuya.
+TEST(WrongInput, TheModuleForPicturesIsTriedFirst) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    scratch.write("libtsuya_pictures.so", "");
+    const char *const before = std::getenv("LD_LIBRARY_PATH");
+    const std::string saved = before ? before : "";
+    setenv("LD_LIBRARY_PATH", scratch.folder().c_str(), 1);
+    for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
+             {"render", scene_file, "-o", (scratch / "a.exr").string(), "--progress", "plain"},
+             {"fabric", "show", "--weave", "polyester taffeta", "--size", "64", "-o",
+              (scratch / "weave.png").string(), "--progress", "plain"},
+             {"tryon", "-o", (scratch / "new").string(), "--progress", "plain"}}) {
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 1) << call.front();
+        EXPECT_NE(outcome.err.find("the module for pictures cannot be loaded"), std::string::npos)
+            << outcome.err;
+        EXPECT_EQ(outcome.err.find('%'), std::string::npos) << outcome.err; // no work was begun
+    }
+    before ? setenv("LD_LIBRARY_PATH", saved.c_str(), 1) : unsetenv("LD_LIBRARY_PATH");
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+}
+
 TEST(WrongCall, HelpOfACommandThatIsNotThere) {
     const Scratch scratch;
     for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{

@@ -346,6 +346,7 @@ RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Pr
 }
 
 TryOnResult run(const TryOn &job, const Progress &progress) {
+    check_pictures();
     const std::vector<NamedDye> dyes = parse_dyes(job);
     const std::vector<NamedLamp> lamps = parse_lamps(job.lamps);
     view_description(job.look.view);

@@ -2,6 +2,10 @@
 /// \file
 /// Picture files. A file appears under its name only when it is complete; a failed write leaves
 /// nothing behind.
+///
+/// OpenImageIO is in a module, `libtsuya_pictures.so`, that is loaded when the first picture is
+/// touched; color/README.md says where it is looked for. Without it every function that touches a
+/// file throws Error.
 
 #include <filesystem>
 #include <map>
@@ -11,6 +15,10 @@
 #include "tsuya/sdk/spectral_image.h"
 
 namespace tsuya {
+
+/// Throws Error where the module for pictures cannot be loaded. For programs that work long before
+/// they write the first picture; any other has no need to call it.
+void check_pictures();
 
 /// Writes a PNG of a display picture: values in [0, 1], already encoded (see display), clamped; 1
 /// (grey), 3 (RGB) or 4 (RGBA) channels. `bits` is 8 or 16. Throws Error at the path for another
