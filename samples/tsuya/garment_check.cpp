@@ -44,8 +44,7 @@ struct GarmentCheck final : Command {
         garment::MeshFile read = garment::read_mesh(mesh, console.progress());
         for (glm::dvec3 &p : read.mesh.position)
             p = garment::in_metres(settings, p);
-        garment::Report report =
-            garment::check(std::move(read.mesh), seams, console.progress(), metres_per_uv);
+        garment::Report report = checked(std::move(read.mesh), console);
         if (const auto upright = garment::find_up_axis(report); upright && !settings.up)
             report.findings.push_back(*upright);
         report.findings.insert(report.findings.end(), read.findings.begin(), read.findings.end());
@@ -58,6 +57,14 @@ struct GarmentCheck final : Command {
                 return finding.severity == garment::Severity::warning;
             });
         return strict && warned ? kCheckFailed : kDone;
+    }
+
+    garment::Report checked(garment::PolygonMesh metres, Console &console) const {
+        try {
+            return garment::check(std::move(metres), seams, console.progress(), metres_per_uv);
+        } catch (const Error &error) {
+            throw error.at(mesh.string());
+        }
     }
 
     void print(const garment::Report &r) const {

@@ -316,6 +316,15 @@ TEST(WrongCall, ValuesThatNoInputCouldMakeRight) {
 }
 
 // What is wrong with what stands in a file, or with a file, is the input's fault.
+TEST(WrongInput, AMeshWithoutAFaceIsNamed) {
+    const Scratch scratch;
+    const std::string mesh =
+        scratch.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1\n").string();
+    const Outcome outcome = run(scratch, {"garment", "check", mesh});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err.rfind("tsuya: " + mesh + ": no face is left", 0), 0u) << outcome.err;
+}
+
 TEST(WrongInput, FilesThatAreNotThere) {
     const Scratch scratch;
     const auto file = [&](const char *name) { return (scratch / name).string(); };
