@@ -60,6 +60,35 @@ TEST(GltfExtensions, UnknownRequiredOnesAreRefusedByName) {
         "no error");
 }
 
+TEST(GltfDocument, OtherVersionsAreRefused) {
+    const auto of_version = [](const std::string &version) {
+        return problem(
+            glb(replaced(square_json(), R"("version":"2.0")", R"("version":")" + version + "\""),
+                square_buffer()));
+    };
+    for (const char *version : {"2.0", "2.1"})
+        EXPECT_EQ(of_version(version), "no error");
+    for (const std::string version : {"1.0", "3.0", "20", ""})
+        EXPECT_EQ(of_version(version), "m.glb: the document is of glTF '" + version + "'");
+}
+
+TEST(GltfDocument, AMaterialThatIsNotThereIsAnError) {
+    for (const std::string number : {"1", "7", "-2"})
+        EXPECT_EQ(problem(glb(replaced(square_json(), R"("material":0)", R"("material":)" + number),
+                              square_buffer())),
+                  "m.glb: node 0: primitive 0: material " + number + " does not exist");
+}
+
+TEST(GltfDocument, ErrorsDoNotQuoteMegabytes) {
+    for (const char *start : {"data:application/foo;base64,", "", "../"}) {
+        const std::string uri = start + std::string(100000, 'A');
+        const std::string told = problem(replaced(square_json(), R"({"byteLength":156})",
+                                                  R"({"byteLength":156,"uri":")" + uri + "\"}"));
+        EXPECT_NE(told, "no error");
+        EXPECT_LT(told.size(), 400u) << told;
+    }
+}
+
 std::vector<Finding> findings_of(const std::string &material) {
     return parse_gltf(glb(square_json("", material), square_buffer()), "m.glb").findings;
 }
@@ -210,6 +239,18 @@ TEST(GltfSkin, VerticesFollowTheirJoints) {
         parse_gltf(skinned_square<std::uint8_t, std::uint16_t>(
                        5121, 5123, {65535, 0, 0, 0, 7, 7, 0, 0, 9, 0, 0, 0, 200, 200, 0, 0}),
                    "m.glb"));
+}
+
+// glTF 2.0, 5.28: without them, each is the identity.
+TEST(GltfSkin, InverseBindMatricesMayBeLeftOut) {
+    const std::vector<float> weights{1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0};
+    std::string file = skinned_square<std::uint8_t, float>(5121, 5126, weights);
+    const std::string member = R"(,"inverseBindMatrices":6)";
+    file = replaced(file, member, std::string(member.size(), ' '));
+    const MeshFile mesh = parse_gltf(file, "m.glb");
+    ASSERT_EQ(mesh.mesh.position.size(), 4u);
+    EXPECT_LT(glm::distance(mesh.mesh.position[0], glm::dvec3(10, 0, 0)), 1e-4);
+    EXPECT_LT(glm::distance(mesh.mesh.position[2], glm::dvec3(10 - 3, 3, 0)), 1e-4);
 }
 
 TEST(GltfSkin, MorphTargetsAreAddedBeforeThePose) {

@@ -40,6 +40,18 @@ void remove_placeholders(json &document) {
     });
 }
 
+/// Whether any skin had none.
+bool add_inverse_bind_matrices(json &document) {
+    bool added = false;
+    visit_entries(document, "skins", [&](json &skin) {
+        if (skin.is_object() && !skin.contains("inverseBindMatrices")) {
+            skin["inverseBindMatrices"] = -1;
+            added = true;
+        }
+    });
+    return added;
+}
+
 void append_number(std::string &out, std::size_t number) {
     const auto n = static_cast<std::uint32_t>(number);
     out.append(reinterpret_cast<const char *>(&n), sizeof n);
@@ -59,7 +71,7 @@ std::string with_json(std::string_view glb, std::size_t old_chunk, std::string t
 
 } // namespace
 
-std::optional<std::string> without_placeholders(std::string_view bytes) {
+std::optional<std::string> adapted_to_parser(std::string_view bytes) {
     constexpr std::size_t kJsonStart = 20; // of a GLB: file header and chunk header
     const bool glb = bytes.starts_with("glTF") && bytes.size() >= kJsonStart;
     std::uint32_t length = 0;
@@ -68,10 +80,13 @@ std::optional<std::string> without_placeholders(std::string_view bytes) {
     const std::string_view text = glb ? bytes.substr(kJsonStart, length) : bytes;
     const bool compressed = text.find("EXT_meshopt_compression") != text.npos ||
                             text.find("KHR_draco_mesh_compression") != text.npos;
-    if (!compressed)
+    if (!compressed && text.find("\"skins\"") == text.npos)
         return std::nullopt;
     json document = json::parse(text, nullptr, false);
     if (!document.is_object())
+        return std::nullopt;
+    const bool added = add_inverse_bind_matrices(document);
+    if (!compressed && !added)
         return std::nullopt;
     remove_placeholders(document);
     std::string changed = document.dump(-1, ' ', false, json::error_handler_t::replace);

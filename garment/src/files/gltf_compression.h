@@ -20,10 +20,10 @@ void decode_draco(tinygltf::Model &model, const std::string &name);
 /// Decodes buffer views with EXT_meshopt_compression. Throws as decode_draco.
 void decode_meshopt(tinygltf::Model &model, const std::string &name);
 
-/// The document without what only stands for compressed data and has no bytes, which the parser
-/// refuses: indices of primitives that Draco has, and empty buffers in place of meshopt's. nullopt
-/// for documents without either extension.
-std::optional<std::string> without_placeholders(std::string_view bytes);
+/// The document without valid parts that the parser refuses. What only stands for compressed data
+/// and has no bytes goes: indices of primitives that Draco has, and empty buffers in place of
+/// meshopt's. Skins without inverse bind matrices get -1. nullopt for documents without any.
+std::optional<std::string> adapted_to_parser(std::string_view bytes);
 
 /// Bytes of a buffer. Throws Error naming `where` if the buffer has not all of them.
 std::string_view buffer_bytes(const tinygltf::Model &model, int buffer, std::size_t offset,

@@ -8,6 +8,7 @@
 
 #include "files/gltf_compression.h"
 #include "files/gltf_extensions.h"
+#include "files/words.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -105,8 +106,23 @@ void check_binary_chunk(std::string_view bytes, const std::string &name) {
         throw Error({"the file is cut short", name, "expected a whole GLB"});
 }
 
-std::string first_line(const std::string &text) {
-    return text.empty() ? "the document is not valid" : text.substr(0, text.find('\n'));
+/// A text that may quote the document, such as a data URI of any length: its first line, and of
+/// that what one can read.
+std::string short_line(const std::string &text) {
+    constexpr std::size_t kMost = 200;
+    std::string line = text.substr(0, text.find('\n'));
+    if (line.size() <= kMost)
+        return line;
+    std::size_t end = kMost;
+    while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80)
+        --end; // not within a character
+    return line.substr(0, end) + "...";
+}
+
+void check_version(const tinygltf::Model &model, const std::string &name) {
+    if (!model.asset.version.starts_with("2."))
+        throw Error({"the document is of glTF " + in_quotes(model.asset.version), name,
+                     "expected glTF 2.0"});
 }
 
 /// Bytes of one accessor (or of its sparse part).
@@ -223,7 +239,7 @@ void apply_sparse(const tinygltf::Model &model, const tinygltf::Accessor &access
 tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &name,
                                     const std::filesystem::path &folder) {
     check_depth(json_text(bytes, name), name);
-    const std::optional<std::string> changed = without_placeholders(bytes);
+    const std::optional<std::string> changed = adapted_to_parser(bytes);
     if (changed)
         bytes = *changed;
     if (is_binary(bytes))
@@ -251,14 +267,16 @@ tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &n
     } catch (const Error &) {
         throw;
     } catch (const std::exception &problem) { // of nlohmann::json or an allocation
-        throw Error({std::string("the document is not valid: ") + problem.what(), name,
+        throw Error({std::string("the document is not valid: ") + short_line(problem.what()), name,
                      "expected glTF 2.0"});
     }
+    check_version(model, name);
     if (!sandbox.refused.empty())
-        throw Error({"'" + sandbox.refused + "' lies outside the folder of the file", name,
-                     "expected buffers beside the file"});
+        throw Error({"'" + short_line(sandbox.refused) + "' lies outside the folder of the file",
+                     name, "expected buffers beside the file"});
     if (!good || !error.empty())
-        throw Error({first_line(error), name, "expected glTF 2.0"});
+        throw Error({error.empty() ? "the document is not valid" : short_line(error), name,
+                     "expected glTF 2.0"});
     check_required_extensions(model, name);
     decode_meshopt(model, name);
     decode_draco(model, name);

@@ -103,6 +103,10 @@ Part read_part(const tinygltf::Model &model, const tinygltf::Primitive &primitiv
     part.position = rows3(read_accessor(model, find_attribute(primitive.attributes, "POSITION"), 3,
                                         0, where + ": POSITION"));
     const std::size_t n = part.position.size();
+    if (primitive.material < -1 ||
+        primitive.material >= static_cast<int>(model.materials.size())) // -1: it has none
+        throw Error({"material " + std::to_string(primitive.material) + " does not exist", where,
+                     "expected a material of the file"});
     std::vector<std::uint32_t> index(n);
     std::iota(index.begin(), index.end(), 0u);
     if (primitive.indices >= 0)
