@@ -184,6 +184,10 @@ TEST_F(PanelScene, PatternsAreOfPanelsGarmentsAndFabrics) {
     EXPECT_TRUE(lace.objects[0].panels[0].opacity);
     EXPECT_EQ(lace.textures[lace.opacities[0].picture.value].channels, 1);
     EXPECT_EQ(lace.opacities[0].placement.width, 0.2);
+    EXPECT_NE(problem("[garments.coat.pattern]\nwidth_m = 1\n" + picture +
+                      "[garments.coat.pattern.screens.a]\n" + picture + "dye = \"indigo\"\n")
+                  .find("both given"),
+              std::string::npos);
     EXPECT_NE(problem("[garments.coat.pattern]\n" + picture).find("width_m"), std::string::npos);
     EXPECT_NE(problem("[garments.coat.pattern]\nwidth_m = 1\nrepeat = \"twice\"\n" + picture)
                   .find("tile, mirror or once"),

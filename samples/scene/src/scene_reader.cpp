@@ -126,6 +126,8 @@ std::optional<std::size_t> SceneReader::pattern(const Section &of, const std::st
             entry.screens.push_back(
                 {existing_file(screen, "picture", true), dye.value_or(Spectrum::constant(0))});
         }
+    if (section->has("picture") && section->has("screens"))
+        section->problem("screens", "picture and screens are both given", "expected one of them");
     if (entry.screens.empty())
         section->problem("picture", "'picture' is missing",
                          "expected a picture, or [...pattern.screens.NAME] with picture and dye");
