@@ -109,6 +109,7 @@ Json json_of(const garment::Report &r) {
             {"mirrored_faces", r.mirrored_faces},
             {"faces_without_uv", r.faces_without_uv},
             {"faces_without_uv_area", r.faces_without_uv_area},
+            {"area_without_uv", r.area_without_uv},
             {"metres_per_uv_weft", json_of(r.metres_per_uv_weft)},
             {"metres_per_uv_warp", json_of(r.metres_per_uv_warp)},
             {"warp_weft_angle_deg", json_in_degrees(r.warp_weft_angle)},

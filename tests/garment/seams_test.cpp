@@ -314,6 +314,28 @@ TEST(Check, MeasuresUvScaleUnitsAndMirroring) {
     EXPECT_TRUE(keys(check(large)).contains("unusual_size"));
 }
 
+TEST(Check, SaysWhatClothWillBeRefusedFor) {
+    PolygonMesh mesh = panel(10, 10, 0.05);
+    for (std::uint32_t c = 0; c < mesh.face_offset[30]; ++c)
+        mesh.corner_uv[c] = -1;
+    const Report report = check(mesh);
+    EXPECT_TRUE(keys(report).contains("much_without_uv"));
+    EXPECT_NEAR(report.area_without_uv, 30 * 0.05 * 0.05, 1e-12);
+    EXPECT_FALSE(keys(check(panel(10, 10, 0.05))).contains("much_without_uv"));
+}
+
+TEST(Check, SaysThatUvsAreShattered) {
+    PolygonMesh mesh = panel(20, 20, 0.02);
+    mesh.uv.clear();
+    for (std::size_t c = 0; c < mesh.corner_position.size(); ++c) { // a UV a corner, turned by face
+        const glm::dvec3 p = mesh.position[mesh.corner_position[c]];
+        mesh.uv.push_back(c / 4 % 2 == 0 ? glm::dvec2(p.x, p.y) : glm::dvec2(-p.y, p.x));
+        mesh.corner_uv[c] = static_cast<std::int32_t>(c);
+    }
+    EXPECT_TRUE(keys(check(mesh)).contains("shattered_uv"));
+    EXPECT_FALSE(keys(check(panel(20, 20, 0.02))).contains("shattered_uv"));
+}
+
 TEST(Check, SaysThatUvsAreNotInMetres) {
     PolygonMesh mesh = panel(4, 4, 0.1);
     for (glm::dvec2 &uv : mesh.uv)

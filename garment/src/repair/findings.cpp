@@ -161,6 +161,22 @@ void find_uv(const Report &r, Findings &f) {
             "no UV", "directions spread from their neighbours");
     f.count(r.faces_without_uv_area, Severity::warning, "faces_without_uv_area", "face has",
             "faces have", "UVs without area", "directions spread from their neighbours");
+    constexpr double kMostBad = 0.05; // FrameOptions::max_degenerate_area
+    if (r.area > 0.0 && r.area_without_uv > kMostBad * r.area)
+        f.add(
+            Severity::warning, "much_without_uv",
+            number(100.0 * r.area_without_uv / r.area) + " % of the area has no usable UV",
+            "cloth with more than 5 % is refused: state the direction of the warp there (--grain, "
+            "invented_grain_deg), or allow more (--max-degenerate-area, max_degenerate_area)");
+    // Pattern pieces are tens of faces and more; a file has a few dozen of them.
+    constexpr std::size_t kManyIslands = 256, kFewFaces = 16;
+    if (r.uv_islands > kManyIslands && r.uv_islands * kFewFaces > r.faces)
+        f.add(Severity::warning, "shattered_uv",
+              std::to_string(r.uv_islands) + " UV islands for " + std::to_string(r.faces) +
+                  " faces",
+              "kept; each has a grain of its own, so highlights break up at its edges: export the "
+              "UVs "
+              "of the pattern pieces");
     f.count(r.mirrored_islands, Severity::note, "mirrored_islands", "UV island is",
             "UV islands are", "mirrored", "warp kept, weft turned round");
     if (r.mirrored_islands == 0)

@@ -179,11 +179,13 @@ void MeshRepair::measure_uv() {
             continue;
         if (!has_uv(mesh, f)) {
             ++report.faces_without_uv;
+            report.area_without_uv += m.area;
             keep_place(report.first_place, "faces_without_uv", first_point(f));
             continue;
         }
         if (!has_uv_area(mesh, f, m)) {
             ++report.faces_without_uv_area;
+            report.area_without_uv += m.area;
             keep_place(report.first_place, "faces_without_uv_area", first_point(f));
             continue;
         }

@@ -111,6 +111,7 @@ struct Report {
     std::size_t mirrored_faces = 0;   ///< against their island's majority or in a mirrored one
     std::size_t faces_without_uv = 0;
     std::size_t faces_without_uv_area = 0; ///< have UVs that enclose no area
+    double area_without_uv = 0;            ///< of both kinds, square metres; plain panels left out
     Percentiles metres_per_uv_weft{};      ///< |dP/du|
     Percentiles metres_per_uv_warp{};      ///< |dP/dv|
     Percentiles warp_weft_angle{};         ///< between dP/du and dP/dv, radians; pi/2: no shear
