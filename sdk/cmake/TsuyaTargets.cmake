@@ -17,7 +17,8 @@ function(tsuya_target_defaults target)
         set(flags -fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=undefined
             -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
         target_compile_options(${target} PRIVATE ${flags})
-        target_link_options(${target} PRIVATE ${flags})
+        # The sanitizer calls dlopen in our place, so the run path must be one for all callers.
+        target_link_options(${target} PRIVATE ${flags} LINKER:--disable-new-dtags)
     endif()
 endfunction()
 
