@@ -37,10 +37,7 @@ struct GarmentExport final : Command {
             .range(0, 8);
         add_sewing_tolerance(o, job.seams.tolerance);
         add_uv_scale(o, job.metres_per_uv);
-        o.option("--grain", &grain, "DIRECTION",
-                 "warp direction where the mesh has no usable UV: vertical, horizontal, or degrees "
-                 "from the vertical")
-            .check([this] { parse_grain(grain); });
+        add_grain(o, grain);
         cloth.add_data(o);
         o.example("tsuya garment export dress.obj --fabric black_satin --dye crimson -o dress.glb");
         o.notes("Viewers have one lobe of facets: its widths along and across the yarns are fitted "

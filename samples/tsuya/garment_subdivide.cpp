@@ -54,10 +54,7 @@ struct GarmentSubdivide final : Command {
         add_sewing_tolerance(o, seams.tolerance);
         add_uv_scale(o, metres_per_uv);
         o.flag("--strict", &strict, "refuse a mesh with a warning");
-        o.option("--grain", &grain, "DIRECTION",
-                 "warp direction where the mesh has no usable UV: vertical, horizontal, or degrees "
-                 "from the vertical")
-            .check([this] { parse_grain(grain); });
+        add_grain(o, grain);
         o.example("tsuya garment subdivide dress.obj -o fine.ply --tolerance 1e-4");
     }
 

@@ -9,6 +9,14 @@
 
 namespace tsuya::program {
 
+void add_grain(Options &options, std::string &grain) {
+    options
+        .option("--grain", &grain, "DIRECTION",
+                "warp direction where the garment has no usable UV: vertical, horizontal, or "
+                "degrees from the vertical")
+        .check([&grain] { parse_grain(grain); });
+}
+
 std::optional<double> parse_grain(const std::string &text) {
     if (text.empty())
         return std::nullopt;

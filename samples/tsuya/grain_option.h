@@ -5,7 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "options.h"
+
 namespace tsuya::program {
+
+/// `--grain`
+void add_grain(Options &options, std::string &grain);
 
 /// Radians counter-clockwise from the vertical, of `vertical`, `horizontal` or degrees; nullopt for
 /// an empty text. Throws Error for anything else.

@@ -67,10 +67,7 @@ struct TryOn final : Command {
             .excludes(level);
         add_sewing_tolerance(o, job.seams.tolerance);
         add_uv_scale(o, job.metres_per_uv);
-        o.option("--grain", &grain, "DIRECTION",
-                 "warp direction where the garment has no usable UV: vertical, horizontal, or "
-                 "degrees from the vertical")
-            .check([this] { parse_grain(grain); });
+        add_grain(o, grain);
         o.option("--max-degenerate-area", &job.max_degenerate_area, "SHARE",
                  "share of the garment's area without a usable UV above which it is an error")
             .range(0, 1);

@@ -79,6 +79,20 @@ TEST(Panels, BracketsAreLettersAndAQuestionMarkIsOneLetterOfAnyScript) {
     EXPECT_EQ(panels_named(mesh, "??", "t"), (Indices{2}));
 }
 
+// Trying every place for every `*` would take 10^27 steps for the last.
+TEST(Panels, PatternsOfManyStarsEnd) {
+    const PolygonMesh mesh = parse_obj(
+        squares({"g " + std::string(200, 'a') + "c\n", "g aabab\n", "g aabb\n"}), "t.obj");
+    std::string stars;
+    for (int i = 0; i < 20; ++i)
+        stars += "*a";
+    EXPECT_EQ(panels_named(mesh, "*ab", "t"), (Indices{1}));
+    EXPECT_EQ(panels_named(mesh, "a*b*b", "t"), (Indices{1, 2}));
+    EXPECT_EQ(panels_named(mesh, "a*?bb*", "t"), (Indices{2}));
+    EXPECT_EQ(panels_named(mesh, stars + "*c**", "t"), (Indices{0}));
+    EXPECT_THROW(panels_named(mesh, stars + "*b", "t"), Error);
+}
+
 TEST(Panels, ManyNames) {
     std::vector<std::string> lines;
     for (int i = 0; i < 70000; ++i)

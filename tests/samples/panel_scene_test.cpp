@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "samples/scratch.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/garment/mesh_file.h"
@@ -243,6 +245,27 @@ TEST_F(PanelScene, IsExportedWithItsFabrics) {
     EXPECT_EQ(back.mesh.panel_label[2].material, "plastic");
     EXPECT_THROW(export_glb(job, scratch / "no" / "coat.glb"), Error);
     EXPECT_FALSE(std::filesystem::exists(scratch / "no"));
+}
+
+// Red warp and green weft have no dye in common.
+TEST_F(PanelScene, ShotClothIsExportedInTheMeanOfItsDyes) {
+    scratch.write("coat.obj", coat_obj());
+    const TryOn job{.garment = scratch / "coat.obj",
+                    .fabric = find_fabric("shot_silk", data_folder()),
+                    .invented_grain = 0.0,
+                    .level = 0,
+                    .dyes = {}};
+    export_glb(job, scratch / "coat.glb");
+    const std::string glb = read_file(scratch / "coat.glb");
+    const std::string key = "\"baseColorFactor\":[";
+    const std::size_t at = glb.find(key);
+    ASSERT_NE(at, std::string::npos);
+    std::istringstream numbers(glb.substr(at + key.size(), 100));
+    double red = 0, green = 0;
+    char comma = 0;
+    numbers >> red >> comma >> green;
+    EXPECT_GT(red, 0.1);
+    EXPECT_GT(green, 0.1);
 }
 
 } // namespace

@@ -232,38 +232,30 @@ TEST(Print, IsFilteredByWhatAPixelSees) {
 }
 
 TEST(Print, ThatIsWrongIsRefused) {
-    const auto where = [](const Scene &scene) {
-        try {
-            check_scene(scene);
-        } catch (const Error &error) {
-            return error.problems()[0].where;
-        }
-        return std::string("accepted");
-    };
     const Scene good = printed_floor(lambert(0.9), plain({0, 0, 0, 255}), inks());
-    EXPECT_EQ(where(good), "accepted");
+    EXPECT_EQ(place_of_fault(good), "accepted");
     Scene scene = good;
     scene.prints[0].layers[0].inks.pop_back();
-    EXPECT_EQ(where(scene), "prints[0].layers[0]");
+    EXPECT_EQ(place_of_fault(scene), "prints[0].layers[0]");
     scene = good; // of two shapes
     scene.textures.push_back({.width = 2, .height = 1, .channels = 1, .data = {0, 0}});
     scene.prints[0].layers.push_back({{1}, {Spectrum::constant(0.5)}});
-    EXPECT_EQ(where(scene), "prints[0].layers[1]");
+    EXPECT_EQ(place_of_fault(scene), "prints[0].layers[1]");
     scene = good;
     scene.prints[0].placement.width = 0;
-    EXPECT_EQ(where(scene), "prints[0].width");
+    EXPECT_EQ(place_of_fault(scene), "prints[0].width");
     scene = good;
     scene.objects[0].print = PrintIndex{1};
-    EXPECT_EQ(where(scene), "objects[0].print");
+    EXPECT_EQ(place_of_fault(scene), "objects[0].print");
     scene = good;
     scene.surfaces[0].uv.clear();
-    EXPECT_EQ(where(scene), "objects[0]");
+    EXPECT_EQ(place_of_fault(scene), "objects[0]");
     scene = good;
     scene.textures[0].data.pop_back();
-    EXPECT_EQ(where(scene), "textures[0]");
+    EXPECT_EQ(place_of_fault(scene), "textures[0]");
     scene = good;
     scene.prints[0].layers[0].inks[3] = Spectrum::constant(1.5);
-    EXPECT_EQ(where(scene).substr(0, 24), "prints[0].layers[0].inks");
+    EXPECT_EQ(place_of_fault(scene).substr(0, 24), "prints[0].layers[0].inks");
 }
 
 // A sheet with a picture of holes above a floor; the light is above both.

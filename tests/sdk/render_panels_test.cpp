@@ -110,27 +110,19 @@ TEST(Back, OfAFabricHasItsYarnSystemsExchanged) {
 }
 
 TEST(PanelFabrics, ThatAreWrongAreRefused) {
-    const auto where = [](const Scene &scene) {
-        try {
-            check_scene(scene);
-        } catch (const Error &error) {
-            return error.problems()[0].where;
-        }
-        return std::string("accepted");
-    };
     Scene scene = two_panels();
     scene.objects[0].panels = {{.panel = 2, .fabric = {1}}};
-    EXPECT_EQ(where(scene), "objects[0].panels[0]");
+    EXPECT_EQ(place_of_fault(scene), "objects[0].panels[0]");
     scene.objects[0].panels = {{.panel = 1, .fabric = {7}}};
-    EXPECT_EQ(where(scene), "objects[0].panels[0].fabric");
+    EXPECT_EQ(place_of_fault(scene), "objects[0].panels[0].fabric");
     scene.objects[0].panels = {{.panel = 1, .fabric = {1}}, {.panel = 1, .fabric = {2}}};
-    EXPECT_EQ(where(scene), "objects[0].panels[1]");
+    EXPECT_EQ(place_of_fault(scene), "objects[0].panels[1]");
     scene.objects[0] = {"sheet", {0}, {0}, FabricIndex{9}};
-    EXPECT_EQ(where(scene), "objects[0].back");
+    EXPECT_EQ(place_of_fault(scene), "objects[0].back");
     scene.objects[0] = {"sheet", {0}, {1}};
     scene.objects[0].panels = {{.panel = 1, .fabric = {0}}};
     scene.surfaces[0].warp.clear(); // the satin of panel 1 needs it
-    EXPECT_EQ(where(scene), "objects[0].panels[0]");
+    EXPECT_EQ(place_of_fault(scene), "objects[0].panels[0]");
 }
 
 } // namespace

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya::test {
@@ -119,6 +121,16 @@ inline Scene furnace(const Fabric &fabric) {
 
 inline RenderSettings quick(int samples) {
     return {.stop = {.samples_per_pixel = samples}, .channels = 8};
+}
+
+// Where check_scene finds the first fault; `accepted` without one.
+inline std::string place_of_fault(const Scene &scene) {
+    try {
+        check_scene(scene);
+    } catch (const Error &error) {
+        return error.problems()[0].where;
+    }
+    return "accepted";
 }
 
 // Largest |value - expected| over all pixels and channels of a group.

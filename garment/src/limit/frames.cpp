@@ -244,8 +244,7 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
                              "expected at most " +
                                  std::to_string(100.0 * options.max_degenerate_area) +
                                  " % (--max-degenerate-area, max_degenerate_area), or a stated "
-                                 "direction of "
-                                 "the warp there (--grain, invented_grain_deg)"});
+                                 "direction of the warp there (--grain, invented_grain_deg)"});
         }
         if (options.invented_grain)
             invent_frames(mesh, *options.invented_grain, valid, s, progress);

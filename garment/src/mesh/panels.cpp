@@ -30,21 +30,32 @@ std::size_t letter_size(std::string_view text) {
     return size;
 }
 
-// `*` stands for any letters, `?` for one.
+// `*` stands for any letters, `?` for one. Only the last `*` is ever tried again: what an earlier
+// one could take instead, the later one can take too.
 bool is_like(std::string_view name, std::string_view pattern) {
-    if (pattern.empty())
-        return name.empty();
-    if (pattern.front() == '*') {
-        for (std::size_t from = 0; from <= name.size(); ++from)
-            if (is_like(name.substr(from), pattern.substr(1)))
-                return true;
-        return false;
+    std::size_t n = 0;
+    std::size_t p = 0;
+    std::size_t star = std::string_view::npos; // in the pattern
+    std::size_t taken = 0;                     // where the name goes on after the last `*`
+    while (n < name.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            taken = n;
+        } else if (p < pattern.size() && pattern[p] == '?') {
+            n += letter_size(name.substr(n));
+            ++p;
+        } else if (p < pattern.size() && pattern[p] == name[n]) {
+            ++n;
+            ++p;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            taken += letter_size(name.substr(taken));
+            n = taken;
+        } else {
+            return false;
+        }
     }
-    if (name.empty())
-        return false;
-    if (pattern.front() == '?')
-        return is_like(name.substr(letter_size(name)), pattern.substr(1));
-    return name.front() == pattern.front() && is_like(name.substr(1), pattern.substr(1));
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 bool matches(const std::string &name, std::string_view pattern) {

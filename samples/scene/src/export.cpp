@@ -11,7 +11,6 @@
 #include "tsuya/garment/gltf.h"
 #include "tsuya/sdk/accuracy.h"
 #include "tsuya/sdk/angle.h"
-#include "tsuya/sdk/directions.h"
 #include "tsuya/sdk/ggx.h"
 #include "tsuya/sdk/model.h"
 
@@ -39,10 +38,15 @@ std::optional<GgxFacets> facets_of(const Fabric &fabric, const Progress &progres
     return fit_ggx(Bard::fit(table, BardSmoothness{}, fabric.name, progress), progress);
 }
 
+// One material has one colour: the mean of weft and warp where they are dyed apart.
 // [KhrAnisotropy] The width along the long axis is alpha + strength^2 (1 - alpha).
 garment::GltfMaterial material_of(const Fabric &fabric, const std::optional<GgxFacets> &facets) {
     const Spectrum d65 = lamp("D65");
-    const glm::dvec3 xyz = xyz_of(d65, fabric.colours.dye) / white_of(d65) * srgb_white();
+    const auto *const yarns = std::get_if<YarnLobes>(&fabric.specular);
+    const glm::dvec3 dyed =
+        glm::mix(xyz_of(d65, fabric.colours.dye_of_warp()),
+                 xyz_of(d65, fabric.colours.dye_of_weft()), yarns ? yarns->weft_share() : 0.5);
+    const glm::dvec3 xyz = dyed / white_of(d65) * srgb_white();
     garment::GltfMaterial material{
         .name = fabric.name,
         .colour = glm::clamp(srgb_from_xyz() * xyz, glm::dvec3(0), glm::dvec3(1)),
