@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "ray_offset.h"
+#include "position_error.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -252,7 +252,8 @@ glm::vec3 PreparedScene::behind(const glm::vec3 &direction, const Hit &hit) cons
     const glm::vec3 point = hit.barycentric.x * positions[t.x] +
                             hit.barycentric.y * positions[t.y] + hit.barycentric.z * positions[t.z];
     const glm::vec3 normal = hit.face_normal / glm::length(hit.face_normal);
-    return offset_ray(point, glm::dot(normal, direction) > 0 ? normal : -normal);
+    const float error = position_error({positions[t.x], positions[t.y], positions[t.z]}, normal);
+    return point + (glm::dot(normal, direction) > 0 ? error : -error) * normal;
 }
 
 void PreparedScene::prepare_camera() {
@@ -283,7 +284,8 @@ SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) co
     };
     SurfacePoint point;
     // From the corners: more exact than along the ray
-    point.position = interpolate(accelerator.positions(hit.object));
+    const std::vector<glm::vec3> &positions = accelerator.positions(hit.object);
+    point.position = interpolate(positions);
     const Sides &sides = sides_at(hit);
     glm::vec3 geometric = hit.face_normal / glm::length(hit.face_normal);
     const bool behind = glm::dot(geometric, direction) > 0;
@@ -303,6 +305,7 @@ SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) co
     if (const float cosine = -glm::dot(normal, direction); cosine < kLeastCosine)
         normal = glm::normalize(normal - (kLeastCosine - cosine) * direction);
     point.geometric_normal = geometric;
+    point.error = position_error({positions[t.x], positions[t.y], positions[t.z]}, geometric);
     point.frame =
         surface.warp.empty() ? make_frame(normal) : make_frame(normal, interpolate(surface.warp));
     point.warp = point.frame.warp;

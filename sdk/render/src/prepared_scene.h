@@ -25,6 +25,7 @@ namespace tsuya {
 struct SurfacePoint {
     glm::vec3 position;
     glm::vec3 geometric_normal; // of the triangle
+    float error;                // bound of the position's along that normal, of rounding
     Frame frame;                // its normal is the shading normal
     glm::vec3 warp;             // of the cloth: also where the frame has the weft in its place
     std::uint32_t cloth;

@@ -1,7 +1,5 @@
 #include "vertex.h"
 
-#include "ray_offset.h"
-
 namespace tsuya {
 
 Weighed Vertex::weigh(const glm::vec3 &to_light) const {
@@ -36,8 +34,8 @@ std::optional<LightSample> Vertex::sample(glm::vec2 part, glm::vec2 direction) c
 }
 
 glm::vec3 Vertex::ray_origin(const glm::vec3 &direction) const {
-    return offset_ray(point_.position,
-                      is_above(direction) ? point_.geometric_normal : -point_.geometric_normal);
+    return point_.position +
+           (is_above(direction) ? point_.error : -point_.error) * point_.geometric_normal;
 }
 
 } // namespace tsuya
