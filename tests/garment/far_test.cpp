@@ -163,6 +163,37 @@ TEST(Far, WarpAndWeftAgreeAtExtraordinaryVertices) {
     }
 }
 
+// Level 0 evaluates control vertices by masks, level 1 by Bfr's patches.
+TEST(Far, LevelZeroHasTheControlVerticesOfLevelOne) {
+    std::vector<PolygonMesh> meshes{
+        test::shaken(test::cube(), 0.1), test::cut_cube(),
+        test::shaken(test::triangulated(test::cube()), 0.1),
+        test::shaken(test::panel(5, 4, 0.25), 0.05),
+        test::shaken(test::triangulated(test::panel(5, 4, 0.25)), 0.05)};
+    for (const int n : {3, 4, 5, 6, 7, 20})
+        for (const bool triangles : {false, true})
+            meshes.push_back(test::fan(n, false, triangles));
+    std::size_t with_uv = 0;
+    for (const PolygonMesh &mesh : meshes)
+        for (const Scheme scheme : {Scheme::catmark, Scheme::automatic}) {
+            const LimitMesh zero = subdivide(mesh, {.scheme = scheme, .level = 0});
+            const LimitMesh one = subdivide(mesh, {.scheme = scheme, .level = 1});
+            for (std::size_t v = 0; v < zero.position.size(); ++v) {
+                const std::size_t w = nearest(one, zero.position[v]);
+                EXPECT_LT(glm::distance(zero.position[v], one.position[w]), 1e-10);
+                EXPECT_LT(glm::distance(zero.normal[v], one.normal[w]), 1e-4f);
+                if (zero.uv.empty())
+                    continue;
+                EXPECT_LT(glm::distance(zero.uv[v], one.uv[w]), 1e-6f);
+                const float length = glm::length(one.dp_du[w]);
+                EXPECT_LT(glm::distance(zero.dp_du[v], one.dp_du[w]), 1e-4f * length);
+                EXPECT_LT(glm::distance(zero.dp_dv[v], one.dp_dv[w]), 1e-4f * length);
+                with_uv += length > 0.0f;
+            }
+        }
+    EXPECT_GT(with_uv, 100u);
+}
+
 // Far's mask for hems is of rules that OpenSubdiv does not refine by, so its normal changes when
 // the mesh is refined once, which leaves the surface as it is. Ours does not.
 TEST(Far, NormalsOfHemsAreThoseOfTheRefinedMesh) {

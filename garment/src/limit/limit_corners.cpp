@@ -7,43 +7,6 @@
 #include "tsuya/sdk/angle.h"
 
 namespace tsuya::garment {
-namespace {
-
-/// The faces about a vertex, counter-clockwise; those of a hem start at its first edge.
-struct Ring {
-    std::vector<std::size_t> face;
-    std::vector<std::uint32_t> corner; ///< where each face has the vertex
-
-    Ring(const LimitSurface &surface, int vertex) {
-        const auto faces = surface.topology().GetVertexFaces(vertex);
-        const auto locals = surface.topology().GetVertexFaceLocalIndices(vertex);
-        for (int i = 0; i < faces.size(); ++i) {
-            face.push_back(static_cast<std::size_t>(faces[i]));
-            corner.push_back(surface.mesh().face_offset[face.back()] + locals[i]);
-        }
-    }
-    std::size_t size() const { return face.size(); }
-    /// The corner at the far end of the edge that starts face `i`, or that ends the last.
-    std::uint32_t spoke(const PolygonMesh &mesh, std::size_t i) const {
-        return i < size() ? mesh.next(face[i], corner[i])
-                          : mesh.previous(face.back(), corner.back());
-    }
-};
-
-/// Subdominant eigenvalue of Catmull-Clark for an angle of `theta` between edges. [CatmullClark]
-double eigenvalue(double theta) {
-    const double c = std::cos(theta);
-    return (5.0 + c + std::cos(0.5 * theta) * std::sqrt(2.0 * (9.0 + c))) / 16.0;
-}
-
-bool has_crease(const OpenSubdiv::Far::TopologyLevel &level, int vertex) {
-    const auto edges = level.GetVertexEdges(vertex);
-    return std::any_of(edges.begin(), edges.end(), [&](int e) {
-        return !level.IsEdgeBoundary(e) && level.GetEdgeSharpness(e) > 0.0f;
-    });
-}
-
-} // namespace
 
 LimitCorners::LimitCorners(const LimitSurface &surface, const LimitNumbering &numbering,
                            const Progress &progress)
@@ -66,55 +29,34 @@ LimitCorners::LimitCorners(const LimitSurface &surface, const LimitNumbering &nu
 void LimitCorners::add_vertex(const LimitSurface &surface, const LimitNumbering &numbering,
                               int vertex) {
     Vertex v;
+    const Ring ring(surface, vertex);
     if (!surface.topology().IsVertexBoundary(vertex)) {
-        inside(surface, vertex, v.weight);
-        find_uv_tangents(surface, vertex, v);
+        mask_inside(surface, ring, v.weight);
+        if (!mesh_.uv.empty() && ring.has_whole_uv(mesh_))
+            for (const MaskWeight &w : v.weight) {
+                const glm::dvec2 t = mesh_.uv[static_cast<std::size_t>(mesh_.corner_uv[w.corner])];
+                v.t_u += w.tangents.x * t;
+                v.t_v += w.tangents.y * t;
+            }
     } else if (surface.scheme() == OpenSubdiv::Sdc::SCHEME_LOOP) {
-        on_triangle_hem(surface, vertex, v.weight);
+        on_triangle_hem(ring, v.weight);
     } else {
-        on_quad_hem(surface, vertex, v.weight);
+        on_quad_hem(ring, v.weight);
     }
-    for (const std::uint32_t corner : Ring(surface, vertex).corner)
+    for (const std::uint32_t corner : ring.corner)
         v.points.push_back(numbering.corner_vertex(corner));
     std::sort(v.points.begin(), v.points.end());
     v.points.erase(std::unique(v.points.begin(), v.points.end()), v.points.end());
     vertices_.push_back(std::move(v));
 }
 
-// The weights are left eigenvectors of the subdivision matrix of the ring after one step, when all
-// faces are quads: w of the edges' points, and those of the faces' points, which are theirs over
-// 4 lambda - 1. [CatmullClark]
-void LimitCorners::inside(const LimitSurface &surface, int vertex, std::vector<Weight> &weight) {
-    const PolygonMesh &mesh = surface.mesh();
-    const Ring ring(surface, vertex);
-    const std::size_t n = ring.size();
-    const double theta = 2.0 * kPi / static_cast<double>(n);
-    const double face_scale = 1.0 / (4.0 * eigenvalue(theta) - 1.0);
-    const auto spoke = [&](std::size_t i) {
-        const double angle = theta * static_cast<double>(i);
-        return glm::dvec2(std::cos(angle), std::sin(angle));
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-        // An edge's point is the mean of its ends and of the points of both faces.
-        weight.push_back({ring.corner[i], spoke(i)});
-        weight.push_back({ring.spoke(mesh, i), spoke(i)});
-        const glm::dvec2 face = (1.0 + face_scale) * (spoke(i) + spoke(i + 1));
-        const double share = 1.0 / mesh.face_size(ring.face[i]);
-        for (std::uint32_t c = mesh.face_offset[ring.face[i]];
-             c < mesh.face_offset[ring.face[i] + 1]; ++c)
-            weight.push_back({c, share * face});
-    }
-}
-
 // Along the hem, and the eigenvector of waves that vanish on it.
 // Differs from OpenSubdiv's limit mask, which is that of [Biermann]'s modified rules.
-void LimitCorners::on_quad_hem(const LimitSurface &surface, int vertex,
-                               std::vector<Weight> &weight) {
-    const PolygonMesh &mesh = surface.mesh();
-    const Ring ring(surface, vertex);
+void LimitCorners::on_quad_hem(const Ring &ring, std::vector<MaskWeight> &weight) const {
+    const PolygonMesh &mesh = mesh_;
     const std::size_t k = ring.size();
     const double theta = kPi / static_cast<double>(k);
-    const double lambda = eigenvalue(theta), face_scale = 1.0 / (4.0 * lambda - 1.0);
+    const double lambda = catmark_eigenvalue(theta), face_scale = 1.0 / (4.0 * lambda - 1.0);
     const auto spoke = [&](std::size_t i) { return std::sin(theta * static_cast<double>(i)); };
     double sum = 0.0;
     for (std::size_t i = 0; i < k; ++i) {
@@ -122,8 +64,8 @@ void LimitCorners::on_quad_hem(const LimitSurface &surface, int vertex,
         double total = face;
         if (i > 0) {
             sum += 4.0 * spoke(i);
-            weight.push_back({ring.corner[i], {0.0, spoke(i)}});
-            weight.push_back({ring.spoke(mesh, i), {0.0, spoke(i)}});
+            weight.push_back({ring.corner[i], 0.0, {0.0, spoke(i)}});
+            weight.push_back({ring.spoke(mesh, i), 0.0, {0.0, spoke(i)}});
             total += spoke(i);
         }
         if (i + 1 < k)
@@ -132,55 +74,33 @@ void LimitCorners::on_quad_hem(const LimitSurface &surface, int vertex,
         const double share = total / mesh.face_size(ring.face[i]);
         for (std::uint32_t c = mesh.face_offset[ring.face[i]];
              c < mesh.face_offset[ring.face[i] + 1]; ++c)
-            weight.push_back({c, {0.0, share}});
+            weight.push_back({c, 0.0, {0.0, share}});
     }
     // What is left of the eigenvector: both points on the hem, and the vertex.
     const double side =
         (0.25 * spoke(1) + 0.25 * face_scale * spoke(1) - 0.125 * sum) / (lambda - 0.25);
     const double middle = -2.0 * side - sum;
     // After one step, they are 1/2, 1/2 and 3/4, 1/8, 1/8 of what is here.
-    weight.push_back({ring.corner[0], {0.0, side + 0.75 * middle}});
-    weight.push_back({ring.spoke(mesh, 0), {0.5, 0.5 * side + 0.125 * middle}});
-    weight.push_back({ring.spoke(mesh, k), {-0.5, 0.5 * side + 0.125 * middle}});
+    weight.push_back({ring.corner[0], 0.0, {0.0, side + 0.75 * middle}});
+    weight.push_back({ring.spoke(mesh, 0), 0.0, {0.5, 0.5 * side + 0.125 * middle}});
+    weight.push_back({ring.spoke(mesh, k), 0.0, {-0.5, 0.5 * side + 0.125 * middle}});
 }
 
-void LimitCorners::on_triangle_hem(const LimitSurface &surface, int vertex,
-                                   std::vector<Weight> &weight) {
-    const PolygonMesh &mesh = surface.mesh();
-    const Ring ring(surface, vertex);
+void LimitCorners::on_triangle_hem(const Ring &ring, std::vector<MaskWeight> &weight) const {
+    const PolygonMesh &mesh = mesh_;
     const std::size_t k = ring.size();
     const double theta = kPi / static_cast<double>(k);
     const double lambda = 0.375 + 0.25 * std::cos(theta); // [LoopScheme]
     double sum = 0.0;
     for (std::size_t i = 1; i < k; ++i) {
         const double w = std::sin(theta * static_cast<double>(i));
-        weight.push_back({ring.spoke(mesh, i), {0.0, w}});
+        weight.push_back({ring.spoke(mesh, i), 0.0, {0.0, w}});
         sum += w;
     }
     const double side = 0.125 * (std::sin(theta) - sum) / (lambda - 0.25);
-    weight.push_back({ring.corner[0], {0.0, -2.0 * side - sum}});
-    weight.push_back({ring.spoke(mesh, 0), {1.0, side}});
-    weight.push_back({ring.spoke(mesh, k), {-1.0, side}});
-}
-
-void LimitCorners::find_uv_tangents(const LimitSurface &surface, int vertex, Vertex &out) const {
-    const PolygonMesh &mesh = surface.mesh();
-    if (mesh.uv.empty())
-        return;
-    const Ring ring(surface, vertex);
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const std::size_t after = (i + 1) % ring.size();
-        const std::uint32_t end = mesh.previous(ring.face[i], ring.corner[i]);
-        if (!has_uv(mesh, ring.face[i]) ||
-            mesh.corner_uv[ring.corner[i]] != mesh.corner_uv[ring.corner[after]] ||
-            mesh.corner_uv[end] != mesh.corner_uv[ring.spoke(mesh, after)])
-            return;
-    }
-    for (const Weight &w : out.weight) {
-        const glm::dvec2 t = mesh.uv[static_cast<std::size_t>(mesh.corner_uv[w.corner])];
-        out.t_u += w.tangents.x * t;
-        out.t_v += w.tangents.y * t;
-    }
+    weight.push_back({ring.corner[0], 0.0, {0.0, -2.0 * side - sum}});
+    weight.push_back({ring.spoke(mesh, 0), 0.0, {1.0, side}});
+    weight.push_back({ring.spoke(mesh, k), 0.0, {-1.0, side}});
 }
 
 void LimitCorners::apply(const std::vector<glm::dvec3> &positions, const glm::dvec3 &centre,
@@ -191,7 +111,7 @@ void LimitCorners::apply(const std::vector<glm::dvec3> &positions, const glm::dv
                            .p_v = glm::dvec3(0.0),
                            .t_u = v.t_u,
                            .t_v = v.t_v};
-        for (const Weight &w : v.weight) {
+        for (const MaskWeight &w : v.weight) {
             const glm::dvec3 p = positions[mesh_.corner_position[w.corner]] - centre;
             sample.p_u += w.tangents.x * p;
             sample.p_v += w.tangents.y * p;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "limit/limit_masks.h"
 #include "limit/limit_numbering.h"
 
 namespace tsuya::garment {
@@ -22,23 +23,15 @@ class LimitCorners {
                LimitMesh &out) const;
 
   private:
-    /// A corner of the control mesh and its weight in both tangents.
-    struct Weight {
-        std::uint32_t corner;
-        glm::dvec2 tangents;
-    };
     struct Vertex {
-        std::vector<Weight> weight{};
+        std::vector<MaskWeight> weight{};    ///< tangents alone
         std::vector<std::uint32_t> points{}; ///< of the tessellation, one for each panel and UV
         glm::dvec2 t_u{0.0}, t_v{0.0};       ///< tangents of the UV; 0 where it is cut
     };
 
     void add_vertex(const LimitSurface &surface, const LimitNumbering &numbering, int vertex);
-    static void inside(const LimitSurface &surface, int vertex, std::vector<Weight> &weight);
-    static void on_quad_hem(const LimitSurface &surface, int vertex, std::vector<Weight> &weight);
-    static void on_triangle_hem(const LimitSurface &surface, int vertex,
-                                std::vector<Weight> &weight);
-    void find_uv_tangents(const LimitSurface &surface, int vertex, Vertex &out) const;
+    void on_quad_hem(const Ring &ring, std::vector<MaskWeight> &weight) const;
+    void on_triangle_hem(const Ring &ring, std::vector<MaskWeight> &weight) const;
 
     const PolygonMesh &mesh_;
     std::vector<Vertex> vertices_;

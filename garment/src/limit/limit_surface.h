@@ -55,6 +55,8 @@ class LimitSurface {
     /// Other positions for the same topology.
     void set_positions(const std::vector<glm::dvec3> &positions);
     const glm::dvec3 &centre() const { return centre_; }
+    /// A control point relative to `centre`.
+    const glm::dvec3 &relative(std::uint32_t vertex) const { return relative_[vertex]; }
 
     /// Sets `scratch` to a face; the following work on that face.
     void prepare(std::size_t face, Scratch &scratch) const;

@@ -1,6 +1,7 @@
 #include "tsuya/garment/subdivide.h"
 
 #include <cmath>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -21,6 +22,7 @@ namespace {
 /// What a thread needs.
 struct Worker {
     LimitSurface::Scratch scratch;
+    LimitMasks masks;
     std::vector<std::uint32_t> vertices;
     std::size_t repaired_normals = 0;
 };
@@ -59,18 +61,51 @@ struct Subdivider::State {
     void evaluate_face(std::size_t face, LimitMesh &out, Worker &worker) const {
         const FacePattern &pattern = patterns.of(face);
         numbering.face_vertices(face, pattern.interior_count, worker.vertices);
-        surface.prepare(face, worker.scratch);
-        for (std::size_t i = 0; i < worker.vertices.size(); ++i)
-            if (worker.vertices[i] >= numbering.face_first()[face])
-                evaluate_vertex(face, pattern.coordinate[i], worker.vertices[i], out, worker);
+        // Where edges are not cut, control vertices alone are wanted, and most need no patches.
+        const std::size_t size = mesh.face_size(face);
+        const bool uncut = worker.vertices.size() == size + pattern.interior_count;
+        bool prepared = false;
+        for (std::size_t i = 0; i < worker.vertices.size(); ++i) {
+            const std::uint32_t vertex = worker.vertices[i];
+            if (vertex < numbering.face_first()[face] ||
+                (uncut && i < size && evaluate_corner(face, i, vertex, out, worker)))
+                continue;
+            if (!std::exchange(prepared, true))
+                surface.prepare(face, worker.scratch);
+            evaluate_vertex(face, pattern.coordinate[i], vertex, out, worker);
+        }
+    }
+
+    /// Evaluates a control vertex by its mask; false where there is none.
+    bool evaluate_corner(std::size_t face, std::size_t corner, std::uint32_t vertex, LimitMesh &out,
+                         Worker &worker) const {
+        const std::uint32_t control = mesh.corner_position[mesh.face_offset[face] + corner];
+        const auto sample = worker.masks.sample(surface, static_cast<int>(control));
+        const bool has_uv = !mesh.uv.empty();
+        glm::dvec3 n, dp_du, dp_dv;
+        if (!sample || !sample->normal(n) || (has_uv && !sample->cloth(dp_du, dp_dv)))
+            return false;
+        store(*sample, n, has_uv, face, vertex, out);
+        return true;
+    }
+
+    void store(const LimitSample &sample, const glm::dvec3 &normal, bool has_uv, std::size_t face,
+               std::uint32_t vertex, LimitMesh &out) const {
+        glm::dvec3 dp_du, dp_dv;
+        out.position[vertex] = surface.centre() + sample.p;
+        if (!out.uv.empty())
+            out.uv[vertex] = glm::vec2(sample.t);
+        out.normal[vertex] = glm::vec3(normal);
+        out.panel[vertex] = mesh.face_panel[face];
+        if (has_uv && sample.cloth(dp_du, dp_dv)) {
+            out.dp_du[vertex] = glm::vec3(dp_du);
+            out.dp_dv[vertex] = glm::vec3(dp_dv);
+        }
     }
 
     void evaluate_vertex(std::size_t face, const glm::dvec2 &at, std::uint32_t vertex,
                          LimitMesh &out, Worker &worker) const {
         LimitSample sample = surface.sample(at, worker.scratch);
-        out.position[vertex] = surface.centre() + sample.p;
-        if (!out.uv.empty())
-            out.uv[vertex] = glm::vec2(sample.t);
         glm::dvec3 n, dp_du, dp_dv;
         const bool has_uv = worker.scratch.has_uv;
         const bool has_normal = sample.normal(n);
@@ -78,16 +113,15 @@ struct Subdivider::State {
             // Tangents vanish at a cusp or pole, and UVs at a T-junction, whose corner is straight:
             // look a little further inside the face.
             worker.repaired_normals += !has_normal;
+            const glm::dvec3 p = sample.p;
+            const glm::dvec2 t = sample.t;
             sample = surface.sample(surface.nudged(at, worker.scratch), worker.scratch);
+            sample.p = p;
+            sample.t = t;
             if (!sample.normal(n))
                 n = any_normal(mesh, face);
         }
-        out.normal[vertex] = glm::vec3(n);
-        out.panel[vertex] = mesh.face_panel[face];
-        if (has_uv && sample.cloth(dp_du, dp_dv)) {
-            out.dp_du[vertex] = glm::vec3(dp_du);
-            out.dp_dv[vertex] = glm::vec3(dp_dv);
-        }
+        store(sample, n, has_uv, face, vertex, out);
     }
 
     /// Frames after the first: weighted sums, and what no frame changes.
