@@ -1,11 +1,18 @@
 #include "repair/layers.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/distance.h"
+#include "mesh/stop.h"
+#include "repair/mesh_repair.h"
 
 namespace tsuya::garment {
 namespace {
+
+/// How far layers of cloth may lie from each other, in tolerances of sewing.
+constexpr double kLayerTolerances = 4.0;
 
 glm::dvec3 middle_of(const PolygonMesh &mesh, std::uint32_t face) {
     glm::dvec3 middle(0.0);
@@ -48,6 +55,45 @@ bool lie_on_each_other(const PolygonMesh &mesh, std::vector<std::uint32_t> faces
                             [&](std::uint32_t other) { return is_near(mesh, p, other, distance); });
     }
     return static_cast<double>(near) >= kShare * static_cast<double>(samples);
+}
+
+/// Asks each vertex of the boundary how its rim lies to the rims of other parts that pass it.
+void MeshRepair::find_layers(double tolerance) {
+    DisjointSets sets(mesh_.position.size());
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f)
+        for (std::uint32_t c = mesh_.face_offset[f]; c < mesh_.face_offset[f + 1]; ++c)
+            sets.unite(mesh_.corner_position[mesh_.face_offset[f]], mesh_.corner_position[c]);
+    const SetNumbers parts = sets.number();
+    const OpenSides &open = open_sides();
+    LayerVotes votes;
+    std::size_t turn = 0;
+    for (const std::uint32_t v : open.vertices()) {
+        look_at_stop(progress_, turn++);
+        const glm::dvec3 &p = mesh_.position[v];
+        std::uint32_t last = 0;
+        for (const std::uint32_t i : open.near(p)) {
+            const OpenSide &side = open.sides()[i];
+            if (parts.of[v] != parts.of[side.from] && i + 1 != std::exchange(last, i + 1) &&
+                segment_distance(p, open.start(side), open.end(side)) <= tolerance)
+                votes.add(parts.of[v], parts.of[side.from], open.contact(v, side, tolerance));
+        }
+    }
+    const auto candidates = votes.candidates();
+    std::vector<std::vector<std::uint32_t>> faces(candidates.empty() ? 0 : parts.count);
+    for (std::uint32_t f = 0; !faces.empty() && f < mesh_.face_count(); ++f)
+        faces[parts.of[mesh_.corner_position[mesh_.face_offset[f]]]].push_back(f);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> layers;
+    for (const auto &[one, other] : candidates) {
+        look_at_stop(progress_);
+        if (lie_on_each_other(mesh_, faces[one], faces[other], kLayerTolerances * tolerance))
+            layers.insert({one, other});
+    }
+    layers_ = LayeredParts(parts.of, std::move(layers));
+    for (const std::uint32_t v : open.vertices())
+        if (layers_.has_any(v)) {
+            ++report_.seams.layered;
+            keep_place(report_.seams.first_place, "two_layers", mesh_.position[v]);
+        }
 }
 
 } // namespace tsuya::garment

@@ -45,8 +45,9 @@ class LayeredParts {
 /// nearly all folded may be layers, and are if their faces lie on each other, too.
 class LayerVotes {
   public:
+    /// Of different parts.
     void add(std::uint32_t part, std::uint32_t other, Contact contact) {
-        if (part == other || contact == Contact::none)
+        if (contact == Contact::none)
             return;
         auto &[folded, all] = votes_[std::minmax(part, other)];
         folded += contact == Contact::folded;

@@ -66,6 +66,12 @@ const EdgeTable &MeshRepair::edges() {
     return *edges_;
 }
 
+const OpenSides &MeshRepair::open_sides() {
+    if (!open_sides_)
+        open_sides_.emplace(mesh_, edges(), reach_);
+    return *open_sides_;
+}
+
 const HalfEdgeMesh &MeshRepair::half_edges() {
     if (!half_edges_)
         half_edges_.emplace(make_half_edges(mesh_, progress_));
@@ -74,6 +80,7 @@ const HalfEdgeMesh &MeshRepair::half_edges() {
 
 void MeshRepair::faces_changed() {
     edges_.reset();
+    open_sides_.reset();
     half_edges_.reset();
     settled_ = false;
 }

@@ -11,13 +11,23 @@
 
 #include "mesh/edges.h"
 #include "repair/half_edges.h"
-#include "repair/insertion.h"
 #include "repair/layers.h"
+#include "repair/open_sides.h"
+#include "repair/pairing.h"
 #include "repair/vertex_set.h"
 #include "tsuya/garment/check.h"
 #include "tsuya/sdk/progress.h"
 
 namespace tsuya::garment {
+
+/// What is kept about a mesh while it is being sewn. `origin` tells, per corner, its vertex before
+/// anything was joined, so that edges which were laid onto each other can be told apart. A new
+/// corner gets a new number, the same on both sides of an edge inside a panel.
+struct Sewing {
+    std::vector<std::uint32_t> origin{};
+    std::uint32_t next_origin = 0;
+    bool triangles = false; ///< all faces are, and shall stay, triangles
+};
 
 /// A mesh under repair, with what was found and how its positions follow from those of the file.
 /// Member functions are the steps, listed in the order in which they run. Edges and half-edges are
@@ -62,25 +72,22 @@ class MeshRepair {
     void name_panels();
     void measure_panels();
 
-    // The garment: panels joined along their seams (seams.cpp, join_vertices.cpp, sewing.cpp,
-    // open_edges.cpp, slits.cpp).
+    // The garment: panels joined along their seams (seams.cpp, layers.cpp, pairing.cpp, sewing.cpp,
+    // slits.cpp).
     void join_seams();
     /// Finds parts that lie on each other as layers, which are not sewn together.
     void find_layers(double tolerance);
     /// Joins what lies within the tolerance.
     void sew(double tolerance, const VertexSet &allowed);
-    /// Joins boundary vertices that lie within the tolerance, the nearest pairs first, at their
-    /// mean; never two of one face.
-    void join_vertices(double tolerance, const VertexSet &allowed);
+    /// Joins vertices and puts vertices into edges.
+    void apply(Pairing pairing);
     /// Where joining laid an edge inside a panel onto another edge (a fold one edge deep), the edge
     /// gets a vertex in its middle, so that the two stay different.
     void halve_coincident_edges();
-    /// Open vertices that lie on an open edge which they do not touch, each with the nearest such
-    /// edge, sorted by corner and place.
-    std::vector<Insertion> find_insertions(double tolerance, const VertexSet &allowed);
     /// Puts vertices into edges: triangles become more triangles, other faces get corners.
     /// \param insertions sorted by corner, then t
     void insert_vertices(const std::vector<Insertion> &insertions);
+    void rename_vertices(const std::vector<std::uint32_t> &into);
     /// Returns the number of vertices in slits that remain.
     std::size_t close_slits(double tolerance);
     /// Boundary loops that are nowhere wider than the slit width.
@@ -88,7 +95,6 @@ class MeshRepair {
     /// Joins the ends of edges between `allowed` vertices that are no longer than the tolerance;
     /// their triangles are left without area. Returns the number of edges.
     std::size_t collapse_short_edges(double tolerance, const VertexSet &allowed);
-    std::size_t count_open_vertices();
 
     /// Where a UV island folds over itself, its mirrored faces become islands of their own: across
     /// the fold the surface's derivatives would be those of neither side (mirrored_uv.cpp).
@@ -109,6 +115,7 @@ class MeshRepair {
     void list_findings();
 
     const EdgeTable &edges();
+    const OpenSides &open_sides();
     /// Of a manifold mesh.
     const HalfEdgeMesh &half_edges();
     void faces_changed();
@@ -130,7 +137,9 @@ class MeshRepair {
     bool settled_ = false; ///< make_manifold would find nothing to do
     Sewing sewing_{};
     LayeredParts layers_{};
+    double reach_ = 0.0; ///< metres; the farthest that sides are looked for
     std::optional<EdgeTable> edges_{};
+    std::optional<OpenSides> open_sides_{};
     std::optional<HalfEdgeMesh> half_edges_{};
 };
 

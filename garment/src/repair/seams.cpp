@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "repair/mesh_repair.h"
 
@@ -30,42 +31,39 @@ void MeshRepair::join_seams() {
     const double scale = options_.tolerance ? 1.0 : scale_of(std::max({size.x, size.y, size.z}));
     options_.slit_width *= scale;
     report.tolerance = options_.tolerance.value_or(scale * kTolerance);
-    report.boundary_before = count_open_vertices();
+    // Positions that are equal but for rounding are equal even where the tolerance is 0.
+    constexpr double kRounding = 1e-12;
+    const Box box = bounds(mesh_);
+    const double tolerance =
+        std::max(report.tolerance, kRounding * glm::distance(box.lower, box.upper));
+    reach_ = std::max(tolerance, options_.slit_width);
+    report.boundary_before = open_sides().vertices().size();
     if (report.tolerance >= 0.0) {
-        // Positions that are equal but for rounding are equal even where the tolerance is 0.
-        constexpr double kRounding = 1e-12;
-        const Box box = bounds(mesh_);
-        const double tolerance =
-            std::max(report.tolerance, kRounding * glm::distance(box.lower, box.upper));
         find_layers(tolerance);
         sew(tolerance, {});
         make_manifold();
         const std::size_t in_slits =
             options_.slit_width > tolerance ? close_slits(tolerance) : std::size_t{0};
-        report.unresolved = std::max(in_slits, find_insertions(tolerance, {}).size());
+        const Pairing left =
+            pair_sides(mesh_, open_sides(), {tolerance, {}, layers_, false}, progress_);
+        report.unresolved = std::max(in_slits, left.insertions.size());
     }
-    report.boundary_after = count_open_vertices();
+    report.boundary_after = open_sides().vertices().size();
 }
 
 void MeshRepair::sew(double tolerance, const VertexSet &allowed) {
-    SeamReport &report = report_.seams;
     sewing_ = {.origin = mesh_.corner_position,
                .next_origin = static_cast<std::uint32_t>(mesh_.position.size()),
                .triangles = true};
     for (std::size_t f = 0; f < mesh_.face_count(); ++f)
         sewing_.triangles &= mesh_.face_size(f) == 3;
-    join_vertices(tolerance, allowed);
-    halve_coincident_edges();
-    for (int round = 0; round < kMaxRounds; ++round) {
-        std::vector<Insertion> insertions = find_insertions(tolerance, allowed);
-        if (insertions.empty())
+    // Vertices are joined once: what was moved to a mean is not moved on.
+    for (int round = 0; round <= kMaxRounds; ++round) {
+        Pairing pairing =
+            pair_sides(mesh_, open_sides(), {tolerance, allowed, layers_, round == 0}, progress_);
+        if (pairing.empty())
             break;
-        for (Insertion &i : insertions) {
-            i.origin = sewing_.next_origin++;
-            report.largest_gap = std::max(report.largest_gap, i.distance);
-        }
-        report.splits += insertions.size();
-        insert_vertices(insertions);
+        apply(std::move(pairing));
         halve_coincident_edges();
     }
 }

@@ -1,7 +1,8 @@
-// Vertices are put into edges.
+// Vertices become one, and are put into edges.
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 
 #include "mesh/stop.h"
@@ -65,6 +66,36 @@ GrownFace grow_face(const PolygonMesh &mesh, const std::vector<std::uint32_t> &o
 }
 
 } // namespace
+
+void MeshRepair::apply(Pairing pairing) {
+    SeamReport &report = report_.seams;
+    report.largest_gap = std::max(report.largest_gap, pairing.largest_gap);
+    if (!pairing.clusters.empty()) {
+        std::vector<std::uint32_t> into(mesh_.position.size());
+        std::iota(into.begin(), into.end(), 0u);
+        for (const std::vector<std::uint32_t> &cluster : pairing.clusters) {
+            report.joined += cluster.size() - 1;
+            recipe_.mean(mesh_.position, cluster[0], cluster);
+            for (const std::uint32_t v : cluster)
+                into[v] = cluster[0];
+        }
+        rename_vertices(into);
+    }
+    if (pairing.insertions.empty())
+        return;
+    for (Insertion &i : pairing.insertions) {
+        i.origin = sewing_.next_origin++;
+        report.largest_gap = std::max(report.largest_gap, i.distance);
+    }
+    report.splits += pairing.insertions.size();
+    insert_vertices(pairing.insertions);
+}
+
+void MeshRepair::rename_vertices(const std::vector<std::uint32_t> &into) {
+    for (std::uint32_t &v : mesh_.corner_position)
+        v = into[v];
+    faces_changed();
+}
 
 void MeshRepair::insert_vertices(const std::vector<Insertion> &insertions) {
     PolygonMesh out;
@@ -138,6 +169,28 @@ void MeshRepair::halve_coincident_edges() {
               [](const Insertion &a, const Insertion &b) { return a.corner < b.corner; });
     insert_vertices(insertions);
     share_equal_uvs(mesh_);
+}
+
+std::size_t MeshRepair::collapse_short_edges(double tolerance, const VertexSet &allowed) {
+    // Every vertex takes part in one collapse at most, so that none moves far.
+    std::vector<std::uint32_t> into(mesh_.position.size());
+    std::iota(into.begin(), into.end(), 0u);
+    std::vector<bool> used(mesh_.position.size(), false);
+    std::size_t count = 0;
+    edges().for_each_edge([&](std::span<const EdgeUse> uses) {
+        const std::uint32_t a = uses[0].low, b = uses[0].high;
+        if (!allowed.has(a) || !allowed.has(b) || used[a] || used[b] ||
+            glm::distance(mesh_.position[a], mesh_.position[b]) > tolerance)
+            return;
+        used[a] = used[b] = true;
+        into[b] = a;
+        recipe_.mean(mesh_.position, a, {a, b});
+        ++count;
+    });
+    if (count == 0)
+        return 0;
+    rename_vertices(into);
+    return count;
 }
 
 } // namespace tsuya::garment
