@@ -23,7 +23,7 @@ struct FuzzWay {
         frame = way / 4 % 3 == 0;
         crease = way / 12 % 2 == 0;
     }
-    std::uint32_t tolerance; ///< 0, 1: level 1; 2: within a tolerance; 3: of a camera
+    std::uint32_t tolerance; ///< 0, 1: the level; 2: within a tolerance; 3: of a camera
     bool frame, crease;      ///< a further frame; creases along seams and folds
 };
 
@@ -39,7 +39,8 @@ inline double fuzz_size(const PolygonMesh &mesh) {
 }
 
 inline Options fuzz_options(const PolygonMesh &mesh, const FuzzWay &way) {
-    Options options{.subdivide = {.level = 1}, .frames = {.max_degenerate_area = 1.0}};
+    Options options{.subdivide = {.level = way.tolerance == 0 ? 0 : 1},
+                    .frames = {.max_degenerate_area = 1.0}};
     const double size = fuzz_size(mesh);
     if (way.tolerance == 2)
         options.subdivide.tolerance = 0.02 * size;

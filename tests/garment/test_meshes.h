@@ -9,9 +9,12 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "tsuya/garment/polygon_mesh.h"
+#include "tsuya/garment/report.h"
 
 namespace tsuya::garment::test {
 
@@ -219,6 +222,14 @@ inline std::optional<std::filesystem::path> outside_data() {
     if (!folder || !*folder)
         return std::nullopt;
     return std::filesystem::path(folder);
+}
+
+/// Keys of all findings.
+inline std::set<std::string> keys(const Report &report) {
+    std::set<std::string> result;
+    for (const Finding &f : report.findings)
+        result.insert(f.key);
+    return result;
 }
 
 } // namespace tsuya::garment::test
