@@ -79,7 +79,8 @@ struct GarmentCheck final : Command {
                   << " x " << size.z << " m, area " << r.area << " m2\n";
         print_cloth(r);
         for (const garment::PanelReport &p : r.panel)
-            print_panel(p);
+            print_panel("panel", p);
+        print_islands(r);
         for (const garment::Finding &f : r.findings)
             std::cout << (f.severity == garment::Severity::warning ? "warning " : "note ") << f.key
                       << ": "
@@ -106,16 +107,27 @@ struct GarmentCheck final : Command {
 
     /// What can be named: in a scene by [garments.NAME.panels], in a try-on by --fabric
     /// PANEL=FABRIC.
-    static void print_panel(const garment::PanelReport &p) {
+    static void print_panel(const char *kind, const garment::PanelReport &p) {
         const glm::dvec3 size = p.upper - p.lower;
-        std::cout << "  panel " << shown(p.name + names_of(p)) << ": " << counted(p.faces, "face")
-                  << ", " << p.area << " m2, " << size.x << " x " << size.y << " x " << size.z
-                  << " m about (" << 0.5 * (p.lower.x + p.upper.x) << ", "
-                  << 0.5 * (p.lower.y + p.upper.y) << ", " << 0.5 * (p.lower.z + p.upper.z) << ")";
+        std::cout << "  " << kind << " " << shown(p.name + names_of(p)) << ": "
+                  << counted(p.faces, "face") << ", " << p.area << " m2, " << size.x << " x "
+                  << size.y << " x " << size.z << " m about (" << 0.5 * (p.lower.x + p.upper.x)
+                  << ", " << 0.5 * (p.lower.y + p.upper.y) << ", " << 0.5 * (p.lower.z + p.upper.z)
+                  << ")";
         if (p.warp != glm::dvec3(0))
             std::cout << ", warp " << std::round(degrees_of(p.warp_to_vertical))
                       << " degrees from the vertical";
         std::cout << "\n";
+    }
+
+    /// Of panels that have several.
+    static void print_islands(const garment::Report &r) {
+        constexpr std::size_t kShown = 64;
+        for (std::size_t i = 0; i < std::min(r.island.size(), kShown); ++i)
+            print_panel("island", r.island[i]);
+        if (r.island.size() > kShown)
+            std::cout << "  and " << counted(r.island.size() - kShown, "island")
+                      << " more; --json lists all\n";
     }
 
     /// ` (group g, material m)`: what the file calls a panel, where that is not its name.

@@ -13,7 +13,7 @@ namespace tsuya::program {
 namespace {
 
 struct GarmentExport final : Command {
-    scene::TryOn job{.dyes = {}};
+    scene::TryOn job{.dyes = {"white"}};
     std::filesystem::path output{};
     FabricOptions cloth{};
     std::string dye{}, grain{}, up{};
@@ -52,10 +52,9 @@ struct GarmentExport final : Command {
         cloth.fill(job);
         job.invented_grain = parse_grain(grain);
         job.up = stated_up(up);
+        job.keeps_own_dye = dye.empty();
         if (!dye.empty())
             job.dyes = {dye};
-        else if (!read_fabric(job.fabric, console.progress()).colours.any_dye())
-            job.dyes = {"white"};
         scene::prepare_output_file(output);
         for (const scene::ExportedFabric &fabric :
              scene::export_glb(job, output, console.progress()))

@@ -44,6 +44,23 @@ Json json_of(const garment::SeamReport &s) {
             {"unresolved", s.unresolved}};
 }
 
+Json json_of(const std::vector<garment::PanelReport> &panels) {
+    Json list = Json::array();
+    for (const garment::PanelReport &p : panels)
+        list.push_back({{"name", p.name},
+                        {"object", p.label.object},
+                        {"group", p.label.group},
+                        {"material", p.label.material},
+                        {"island", p.label.island},
+                        {"lower_m", json_of(p.lower)},
+                        {"upper_m", json_of(p.upper)},
+                        {"faces", p.faces},
+                        {"area", p.area},
+                        {"warp", json_of(p.warp)},
+                        {"warp_to_vertical_deg", degrees_of(p.warp_to_vertical)}});
+    return list;
+}
+
 Json json_of(const std::vector<garment::Finding> &findings) {
     Json list = Json::array();
     for (const garment::Finding &f : findings)
@@ -74,19 +91,6 @@ Json json_of(const garment::Report &r) {
     for (const garment::BoundaryLoop &loop : r.openings)
         openings.push_back(
             {{"edges", loop.edges}, {"length", loop.length}, {"centre", json_of(loop.centre)}});
-    Json panels = Json::array();
-    for (const garment::PanelReport &p : r.panel)
-        panels.push_back({{"name", p.name},
-                          {"object", p.label.object},
-                          {"group", p.label.group},
-                          {"material", p.label.material},
-                          {"island", p.label.island},
-                          {"lower_m", json_of(p.lower)},
-                          {"upper_m", json_of(p.upper)},
-                          {"faces", p.faces},
-                          {"area", p.area},
-                          {"warp", json_of(p.warp)},
-                          {"warp_to_vertical_deg", degrees_of(p.warp_to_vertical)}});
     return {{"schema", "tsuya-garment-check 1"},
             {"vertices", r.vertices},
             {"uvs", r.uvs},
@@ -113,7 +117,8 @@ Json json_of(const garment::Report &r) {
             {"metres_per_uv_weft", json_of(r.metres_per_uv_weft)},
             {"metres_per_uv_warp", json_of(r.metres_per_uv_warp)},
             {"warp_weft_angle_deg", json_in_degrees(r.warp_weft_angle)},
-            {"panel", panels},
+            {"panel", json_of(r.panel)},
+            {"island", json_of(r.island)},
             {"lower", json_of(r.lower)},
             {"upper", json_of(r.upper)},
             {"area", r.area},

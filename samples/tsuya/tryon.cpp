@@ -128,8 +128,8 @@ struct TryOn final : Command {
         cloth.fill(job);
         if (!dye->given && !job.pattern.empty())
             job.dyes = {"white"};
-        else if (!dye->given && read_fabric(job.fabric, console.progress()).colours.any_dye())
-            job.dyes.clear(); // its own
+        else
+            job.keeps_own_dye = !dye->given;
         job.invented_grain = parse_grain(grain);
         job.up = stated_up(up);
         check_results();

@@ -14,6 +14,7 @@
 #include "tsuya/color/camera_frame.h"
 #include "tsuya/color/print_file.h"
 #include "tsuya/sdk/detail/threads.h"
+#include "tsuya/sdk/file.h"
 
 namespace tsuya {
 namespace {
@@ -338,6 +339,22 @@ TEST(ImageFile, ACauseIsToldOnce) {
     const std::size_t cause = text.find("Read error: hit end of file");
     ASSERT_NE(cause, std::string::npos) << text;
     EXPECT_EQ(text.find("Read error: hit end of file", cause + 1), std::string::npos) << text;
+}
+
+// libpng has a habit of writing to stderr by itself.
+TEST(ImageFile, NothingIsWrittenBesideTheError) {
+    const test::Folder folder;
+    write_png(folder / "p.png", ramp(64, 64, {"R", "G", "B"}));
+    std::string bytes = read_file(folder / "p.png");
+    const auto short_one = folder.write("short.png", bytes.substr(0, bytes.size() / 2));
+    bytes[bytes.find("IDAT") + 5] = '\xff'; // of the compressed data's header
+    const auto damaged = folder.write("damaged.png", bytes);
+    testing::internal::CaptureStderr();
+    for (const auto &path : {short_one, damaged})
+        for (int again = 0; again < 2; ++again)
+            test::expect_problem([&, p = path] { read_artwork(p); }, path.string(),
+                                 "PNG read error");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(ImageFile, RefusesWrongPictures) {

@@ -68,6 +68,8 @@ TEST(Panels, AreNamedByAnyOfTheirNames) {
         EXPECT_NE(error.problems()[0].accepted.find("satin"), std::string::npos);
     }
     EXPECT_THROW(panels_named(test::panel(1, 1, 0.1), "a", "t"), Error);
+    EXPECT_EQ(find_panels(mesh, "satin"), (Indices{0, 2}));
+    EXPECT_EQ(find_panels(mesh, "stain"), Indices{});
 }
 
 TEST(Panels, BracketsAreLettersAndAQuestionMarkIsOneLetterOfAnyScript) {
@@ -139,6 +141,25 @@ TEST(Panels, AreReportedWithAreaAndBounds) {
     EXPECT_NEAR(crepe.area, 0.02, 1e-12);
     EXPECT_LT(glm::distance(crepe.lower, glm::dvec3(0.2, 0, 0)), 1e-6);
     EXPECT_LT(glm::distance(crepe.upper, glm::dvec3(0.7, 0.1, 0)), 1e-6);
+}
+
+// By the names that split_panels_by_island gives: what `check` lists can be named.
+TEST(Panels, TheirIslandsAreReported) {
+    const PolygonMesh mesh = pieces_and_fabrics();
+    PolygonMesh parts = mesh;
+    split_panels_by_island(parts);
+    const Report report = check(mesh);
+    ASSERT_EQ(report.island.size(), 2u);
+    for (const PanelReport &island : report.island)
+        EXPECT_EQ(find_panels(parts, island.name).size(), 1u) << island.name;
+    EXPECT_EQ(report.island[0].name, "FRONT/crepe/island1");
+    EXPECT_EQ(report.island[1].label.island, "island3");
+    EXPECT_NEAR(report.island[1].area, 0.01, 1e-12);
+    EXPECT_NEAR(report.island[1].warp.y, 1, 1e-12);
+    EXPECT_EQ(report.panel[2].label.island, "island2"); // the only one of BACK
+    EXPECT_EQ(report.panel[1].label.island, "");
+    EXPECT_TRUE(check(test::panel(2, 2, 0.1)).island.empty());
+    EXPECT_TRUE(load(mesh, {}, "t").report.island.empty());
 }
 
 // Buttons without UVs in a garment that has them.

@@ -13,6 +13,7 @@
 namespace tsuya {
 
 std::string one_line(const std::string &text) {
+    constexpr const char *kNoCause = "PNG library error"; // follows the cause
     std::vector<std::string> lines;
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);)
@@ -24,7 +25,7 @@ std::string one_line(const std::string &text) {
                                       lines.end(), [&](const std::string &later) {
                                           return later.find(lines[i]) != std::string::npos;
                                       });
-        if (!told)
+        if (!told && lines[i] != kNoCause)
             all += (all.empty() ? "" : "; ") + lines[i];
     }
     return all.empty() ? "unknown cause" : all;

@@ -10,7 +10,17 @@ namespace tsuya::garment {
 /// The island of each face, see uv_islands. \param edges of `mesh`
 SetNumbers find_islands(const PolygonMesh &mesh, const EdgeTable &edges);
 
-/// Makes a panel of each island of a panel, see split_panels_by_island.
+/// Panels of a mesh as PolygonMesh has them.
+struct Panels {
+    std::vector<std::uint32_t> of_face{};
+    std::vector<std::string> name{};
+    std::vector<PanelLabel> label{};
+};
+
+/// A panel of each island of a panel, see split_panels_by_island.
+Panels panels_of_islands(const PolygonMesh &mesh, const SetNumbers &islands);
+
+/// Makes these the panels of the mesh.
 void name_islands(PolygonMesh &mesh, const SetNumbers &islands);
 
 } // namespace tsuya::garment

@@ -1,5 +1,7 @@
 #include "tsuya/garment/panels.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -58,13 +60,21 @@ bool is_like(std::string_view name, std::string_view pattern) {
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
+// All that a panel can be named by; some may be empty.
+std::array<std::string, 5> names_of(const PolygonMesh &mesh, std::uint32_t panel) {
+    const PanelLabel label =
+        panel < mesh.panel_label.size() ? mesh.panel_label[panel] : PanelLabel{};
+    return {mesh.panel_name[panel], label.object, label.group, label.material, label.island};
+}
+
 bool matches(const std::string &name, std::string_view pattern) {
     return !name.empty() && (name == pattern || is_like(name, pattern));
 }
 
 } // namespace
 
-void name_islands(PolygonMesh &mesh, const SetNumbers &islands) {
+Panels panels_of_islands(const PolygonMesh &mesh, const SetNumbers &islands) {
+    Panels panels{.of_face = std::vector<std::uint32_t>(mesh.face_count())};
     std::map<Piece, std::uint32_t> number;
     std::vector<Piece> pieces;
     std::map<std::uint32_t, std::size_t> islands_of_panel;
@@ -76,19 +86,23 @@ void name_islands(PolygonMesh &mesh, const SetNumbers &islands) {
             pieces.push_back(piece);
             ++islands_of_panel[piece.first];
         }
-        mesh.face_panel[f] = at->second;
+        panels.of_face[f] = at->second;
     }
-    std::vector<std::string> names;
-    std::vector<PanelLabel> labels;
     for (const auto &[panel, island] : pieces) {
         const std::string name = "island" + std::to_string(island);
-        labels.push_back(label_of(mesh, panel, name));
-        names.push_back(mesh.panel_name.empty()        ? name
-                        : islands_of_panel[panel] == 1 ? mesh.panel_name[panel]
-                                                       : mesh.panel_name[panel] + "/" + name);
+        panels.label.push_back(label_of(mesh, panel, name));
+        panels.name.push_back(mesh.panel_name.empty()        ? name
+                              : islands_of_panel[panel] == 1 ? mesh.panel_name[panel]
+                                                             : mesh.panel_name[panel] + "/" + name);
     }
-    mesh.panel_name = std::move(names);
-    mesh.panel_label = std::move(labels);
+    return panels;
+}
+
+void name_islands(PolygonMesh &mesh, const SetNumbers &islands) {
+    Panels panels = panels_of_islands(mesh, islands);
+    mesh.face_panel = std::move(panels.of_face);
+    mesh.panel_name = std::move(panels.name);
+    mesh.panel_label = std::move(panels.label);
 }
 
 void split_panels_by_island(PolygonMesh &mesh) {
@@ -109,24 +123,25 @@ void split_panels_by_island(MeshFile &file) {
     file.hints = std::move(hints);
 }
 
+std::vector<std::uint32_t> find_panels(const PolygonMesh &mesh, std::string_view pattern) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t p = 0; p < mesh.panel_name.size(); ++p)
+        if (std::ranges::any_of(names_of(mesh, p),
+                                [&](const std::string &name) { return matches(name, pattern); }))
+            found.push_back(p);
+    return found;
+}
+
 std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_view pattern,
                                         const std::string &where) {
-    std::vector<std::uint32_t> found;
-    std::set<std::string> known;
-    for (std::uint32_t p = 0; p < mesh.panel_name.size(); ++p) {
-        const PanelLabel label = p < mesh.panel_label.size() ? mesh.panel_label[p] : PanelLabel{};
-        bool matched = false;
-        for (const std::string &name :
-             {mesh.panel_name[p], label.object, label.group, label.material, label.island}) {
-            matched = matched || matches(name, pattern);
-            if (!name.empty())
-                known.insert(name);
-        }
-        if (matched)
-            found.push_back(p);
-    }
+    std::vector<std::uint32_t> found = find_panels(mesh, pattern);
     if (!found.empty())
         return found;
+    std::set<std::string> known;
+    for (std::uint32_t p = 0; p < mesh.panel_name.size(); ++p)
+        for (const std::string &name : names_of(mesh, p))
+            if (!name.empty())
+                known.insert(name);
     if (known.empty())
         throw Error({"the mesh names no panel", where,
                      "expected a mesh with groups, objects, materials or UVs"});

@@ -85,15 +85,15 @@ bool has_uv_area(const PolygonMesh &mesh, std::size_t f, const FaceMeasure &m) {
 /// Adds up what is known of each panel.
 class PanelSums {
   public:
-    explicit PanelSums(const PolygonMesh &mesh) : panel_(mesh.panel_name.size()) {
+    PanelSums(const std::vector<std::string> &names, const std::vector<PanelLabel> &labels)
+        : panel_(names.size()) {
         for (std::size_t p = 0; p < panel_.size(); ++p) {
-            panel_[p].name = mesh.panel_name[p];
-            if (p < mesh.panel_label.size())
-                panel_[p].label = mesh.panel_label[p];
+            panel_[p].name = names[p];
+            if (p < labels.size())
+                panel_[p].label = labels[p];
         }
     }
-    void add_face(const PolygonMesh &mesh, std::size_t f, double area) {
-        const std::size_t p = mesh.face_panel[f];
+    void add_face(const PolygonMesh &mesh, std::size_t f, std::size_t p, double area) {
         if (p >= panel_.size())
             return;
         PanelReport &panel = panel_[p];
@@ -164,7 +164,7 @@ void MeshRepair::measure_uv() {
     const SetNumbers islands = find_islands(mesh, edges());
     std::vector<double> signed_area(islands.count, 0.0), total_area(islands.count, 0.0);
     std::vector<std::pair<double, double>> weft, warp, angle;
-    PanelSums panels(mesh);
+    PanelSums panels(mesh.panel_name, mesh.panel_label);
     std::vector<double> face_sign(mesh.face_count(), 0.0);
     const auto is_plain = [&](std::size_t f) {
         return mesh.face_panel[f] < mesh.panel_name.size() &&
@@ -174,7 +174,7 @@ void MeshRepair::measure_uv() {
         look_at_stop(progress_, f);
         const FaceMeasure m = measure_face(mesh, f);
         report.area += m.area;
-        panels.add_face(mesh, f, m.area);
+        panels.add_face(mesh, f, mesh.face_panel[f], m.area);
         if (is_plain(f))
             continue;
         if (!has_uv(mesh, f)) {
@@ -210,6 +210,30 @@ void MeshRepair::measure_uv() {
     report.metres_per_uv_warp = percentiles(std::move(warp));
     report.warp_weft_angle = percentiles(std::move(angle));
     report.panel = panels.finish();
+    for (PanelReport &panel : report.panel)
+        if (const auto island = island_of_panel_.find(panel.name); island != island_of_panel_.end())
+            panel.label.island = island->second;
+}
+
+void MeshRepair::measure_islands() {
+    const PolygonMesh &mesh = mesh_;
+    if (!lists_islands_ || mesh.panel_name.empty() || mesh.uv.empty())
+        return;
+    const Panels pieces = panels_of_islands(mesh, find_islands(mesh, edges()));
+    PanelSums sums(pieces.name, pieces.label);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        look_at_stop(progress_, f);
+        const FaceMeasure m = measure_face(mesh, f);
+        sums.add_face(mesh, f, pieces.of_face[f], m.area);
+        if (m.uv_area != 0.0)
+            sums.add_warp(pieces.of_face[f], m.p_v, m.area);
+    }
+    const std::set<std::string> whole(mesh.panel_name.begin(), mesh.panel_name.end());
+    for (PanelReport &island : sums.finish())
+        if (whole.contains(island.name)) // the only one of its panel
+            island_of_panel_[island.name] = island.label.island;
+        else
+            report_.island.push_back(std::move(island));
 }
 
 } // namespace tsuya::garment

@@ -13,6 +13,7 @@ Prepared MeshRepair::run() {
     begin_stage(progress_, "garment: repair");
     check_sizes(mesh_);
     measure_file();
+    measure_islands();
     make_manifold();
     if (mesh_.face_count() == 0)
         throw Error({"no face is left after degenerate faces were dropped", "mesh",
@@ -115,7 +116,9 @@ Prepared make_manifold(PolygonMesh mesh) {
 
 Report check(PolygonMesh metres, const SeamOptions &options, const Progress &progress,
              const std::optional<double> &metres_per_uv) {
-    Report report = prepare(std::move(metres), options, progress).report;
+    check_indices(metres, "mesh");
+    Report report =
+        MeshRepair(std::move(metres), options, true, {}, progress).list_islands().run().report;
     report.metres_per_uv = choose_uv_scale(metres_per_uv, report);
     return report;
 }

@@ -3,6 +3,7 @@
 /// From the mesh of a file to one that can be subdivided.
 
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -43,6 +44,11 @@ class MeshRepair {
         : mesh_(std::move(metres)), options_(options), cloth_(cloth), plain_(std::move(plain)),
           progress_(std::move(progress)) {}
 
+    /// The report lists the UV islands of the file's panels, too.
+    MeshRepair &list_islands() {
+        lists_islands_ = true;
+        return *this;
+    }
     /// All steps.
     Prepared run();
     /// `make_manifold` alone.
@@ -51,6 +57,8 @@ class MeshRepair {
   private:
     // The mesh as the file has it (measure.cpp).
     void measure_file();
+    /// What a scene names is counted before anything is changed.
+    void measure_islands();
 
     // What half-edges need; after the file, and wherever sewing changed the faces (manifold.cpp,
     // fans.cpp).
@@ -133,6 +141,8 @@ class MeshRepair {
     bool cloth_;
     std::set<std::string> plain_;
     Progress progress_;
+    bool lists_islands_ = false;
+    std::map<std::string, std::string> island_of_panel_{}; ///< where a panel has only one
     bool joining_ = false; ///< findings about the topology belong to the joined mesh
     bool settled_ = false; ///< make_manifold would find nothing to do
     Sewing sewing_{};

@@ -3,22 +3,18 @@
 #include <algorithm>
 #include <map>
 
+#include "index_of.h"
 #include "tsuya/garment/panels.h"
-#include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
 namespace {
-
-template <class Tag = FabricTag> Index<Tag> index_of(std::size_t value) {
-    return {static_cast<std::uint32_t>(value)};
-}
 
 // What an entry says of a panel.
 void apply(const PanelEntry &entry, const std::vector<DressingFabric> &fabrics,
            PanelFabric &panel) {
     if (entry.fabric) { // print and holes were of the garment's fabric
         const DressingFabric &fabric = fabrics[*entry.fabric];
-        panel.fabric = index_of(*entry.fabric);
+        panel.fabric = index_of<FabricTag>(*entry.fabric);
         panel.print = fabric.print;
         panel.opacity = fabric.opacity;
         if (!fabric.needs_frames) { // a button is not lined
@@ -27,7 +23,7 @@ void apply(const PanelEntry &entry, const std::vector<DressingFabric> &fabrics,
         }
     }
     if (entry.back) {
-        panel.back = index_of(*entry.back);
+        panel.back = index_of<FabricTag>(*entry.back);
         panel.back_print = fabrics[*entry.back].print;
     }
     if (entry.pattern)
@@ -36,13 +32,13 @@ void apply(const PanelEntry &entry, const std::vector<DressingFabric> &fabrics,
         panel.opacity = index_of<OpacityTag>(*entry.opacity);
 }
 
-bool names_any(const garment::PolygonMesh &mesh, const PanelEntry &entry) {
-    try {
-        garment::panels_named(mesh, entry.panels, entry.where);
-        return true;
-    } catch (const Error &) {
-        return false;
-    }
+// The panels of each entry.
+std::vector<std::vector<std::uint32_t>> find_all(const garment::PolygonMesh &mesh,
+                                                 const std::vector<PanelEntry> &entries) {
+    std::vector<std::vector<std::uint32_t>> named;
+    for (const PanelEntry &entry : entries)
+        named.push_back(garment::find_panels(mesh, entry.panels));
+    return named;
 }
 
 // Into UV islands, with the grain that is stated for panels.
@@ -73,17 +69,24 @@ Dressing dress(Dressing whole, const std::vector<PanelEntry> &entries,
                garment::Options &options) {
     if (entries.empty())
         return whole;
-    if (!std::ranges::all_of(entries, [&](const PanelEntry &e) { return names_any(mesh.mesh, e); }))
+    std::vector<std::vector<std::uint32_t>> named = find_all(mesh.mesh, entries);
+    if (std::ranges::any_of(named, [](const auto &found) { return found.empty(); })) {
         split(mesh, options.frames);
+        named = find_all(mesh.mesh, entries);
+    }
     std::map<std::uint32_t, PanelFabric> panels;
-    for (const PanelEntry &entry : entries)
-        for (const std::uint32_t p : garment::panels_named(mesh.mesh, entry.panels, entry.where)) {
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+        const PanelEntry &entry = entries[e];
+        if (named[e].empty()) // to be refused with the nearest names
+            garment::panels_named(mesh.mesh, entry.panels, entry.where);
+        for (const std::uint32_t p : named[e]) {
             const PanelFabric as_whole{p,           whole.fabric,     whole.back,
                                        whole.print, whole.back_print, whole.opacity};
             apply(entry, fabrics, panels.try_emplace(p, as_whole).first->second);
             if (entry.grain)
                 options.frames.grain[mesh.mesh.panel_name[p]] = *entry.grain;
         }
+    }
     for (const auto &[p, panel] : panels) {
         whole.panels.push_back(panel);
         if (!fabrics[panel.fabric.value].needs_frames &&

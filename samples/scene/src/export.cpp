@@ -98,8 +98,9 @@ std::vector<ExportedFabric> export_glb(const TryOn &job, const std::filesystem::
     Scene &scene = made.scene;
     const Object &garment = scene.objects.front();
     const Surface &surface = scene.surfaces[garment.surface.value];
-    if (!job.dyes.empty())
-        scene.fabrics[garment.fabric.value].colours.dye_all(parse_dye(job.dyes.front()));
+    FabricColours &colours = scene.fabrics[garment.fabric.value].colours;
+    if (!job.dyes.empty() && !(job.keeps_own_dye && colours.any_dye()))
+        colours.dye_all(parse_dye(job.dyes.front()));
     std::vector<std::uint32_t> fabric_of_panel(panel_count(surface), garment.fabric.value);
     for (const PanelFabric &panel : garment.panels)
         fabric_of_panel[panel.panel] = panel.fabric.value;

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "dressing.h"
+#include "index_of.h"
 #include "patterns.h"
 #include "scene_meshes.h"
 #include "scene_reader.h"
@@ -15,14 +16,6 @@ void add_object(Scene &scene, const std::string &name, Surface surface, Dressing
     const auto index = static_cast<std::uint32_t>(scene.surfaces.size());
     scene.surfaces.push_back(std::move(surface));
     scene.objects.push_back(std::move(dressing).object(name, {index}));
-}
-
-template <class Tag> Index<Tag> index_of(std::size_t value) {
-    return {static_cast<std::uint32_t>(value)};
-}
-
-template <class Tag> std::optional<Index<Tag>> index_of(const std::optional<std::size_t> &value) {
-    return value ? std::optional(index_of<Tag>(*value)) : std::nullopt;
 }
 
 /// Where the file has the parts of its scene: `a.scene.toml:9:1: lights.key` for `rectangles[0]`.

@@ -43,13 +43,15 @@ struct NamedDye {
 std::string own_dye_name(const TryOn &job) { return job.fabric.stem().stem().string(); }
 
 std::vector<NamedDye> parse_dyes(const TryOn &job) {
-    if (job.dyes.empty())
-        return {{own_dye_name(job), std::nullopt}};
     check_dyes(job.dyes);
     std::vector<NamedDye> dyes;
     for (const std::string &spec : job.dyes)
         dyes.push_back({file_stem_of(spec), parse_dye(spec)});
     return dyes;
+}
+
+bool has_own_dye(const TryOn &job, const Fabric &fabric) {
+    return job.dyes.empty() || (job.keeps_own_dye && fabric.colours.any_dye());
 }
 
 struct Bounds {
@@ -303,11 +305,10 @@ void check_dyes(const std::vector<std::string> &specs) {
 
 std::vector<fs::path> replaced_files(const TryOn &job) {
     const bool one_shape = job.frames.empty(), numbered = !one_shape || job.morph_targets;
-    std::vector<std::string> dyes{own_dye_name(job)};
-    if (!job.dyes.empty()) {
-        dyes.clear();
-        std::transform(job.dyes.begin(), job.dyes.end(), std::back_inserter(dyes), file_stem_of);
-    }
+    std::vector<std::string> dyes;
+    std::transform(job.dyes.begin(), job.dyes.end(), std::back_inserter(dyes), file_stem_of);
+    if (dyes.empty() || job.keeps_own_dye)
+        dyes.push_back(own_dye_name(job));
     const auto is_result = [&](const std::string &name, const std::string &number) {
         return std::any_of(dyes.begin(), dyes.end(), [&](const std::string &dye) {
             return name == transport_name(dye, number) ||
@@ -347,11 +348,13 @@ RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Pr
 
 TryOnResult run(const TryOn &job, const Progress &progress) {
     check_pictures();
-    const std::vector<NamedDye> dyes = parse_dyes(job);
+    std::vector<NamedDye> dyes = parse_dyes(job);
     const std::vector<NamedLamp> lamps = parse_lamps(job.lamps);
     view_description(job.look.view);
     Stage stage = make_stage(job, progress);
     Scene &scene = stage.shown.scene;
+    if (has_own_dye(job, scene.fabrics.front()))
+        dyes = {{own_dye_name(job), std::nullopt}};
     std::optional<garment::AnimatedGarment> show;
     if (!stage.further.empty())
         show.emplace(stage.meshes.file(0), stage.meshes.options(0), job.garment.string(), progress);

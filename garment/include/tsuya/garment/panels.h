@@ -20,9 +20,12 @@ void split_panels_by_island(PolygonMesh &mesh);
 /// The same, with the hints of a file, which are for panels.
 void split_panels_by_island(MeshFile &file);
 
-/// The panels that a pattern names, in their order: it is compared with the panel's name, and with
-/// what the file calls its object, group and material and its island. `*` stands for any letters,
-/// `?` for one. Throws Error naming `where`, with the nearest names, where there is none.
+/// The panels that a pattern names, in their order, perhaps none: it is compared with the panel's
+/// name, and with what the file calls its object, group and material and its island. `*` stands for
+/// any letters, `?` for one.
+std::vector<std::uint32_t> find_panels(const PolygonMesh &mesh, std::string_view pattern);
+
+/// The same. Throws Error naming `where`, with the nearest names, where there is none.
 std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_view pattern,
                                         const std::string &where);
 

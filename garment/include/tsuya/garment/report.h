@@ -116,9 +116,11 @@ struct Report {
     Percentiles metres_per_uv_warp{};      ///< |dP/dv|
     Percentiles warp_weft_angle{};         ///< between dP/du and dP/dv, radians; pi/2: no shear
     std::vector<PanelReport> panel{};      ///< in the order of the panels
-    double metres_per_uv = 1.0;            ///< scale that was applied to UVs
-    glm::dvec3 lower{0.0}, upper{0.0};     ///< bounding box, metres
-    double area = 0;                       ///< of the control faces, square metres
+    /// Of `check`: UV islands of panels that have several, named as split_panels_by_island does.
+    std::vector<PanelReport> island{};
+    double metres_per_uv = 1.0;        ///< scale that was applied to UVs
+    glm::dvec3 lower{0.0}, upper{0.0}; ///< bounding box, metres
+    double area = 0;                   ///< of the control faces, square metres
     // What load adds.
     std::size_t limit_points = 0; ///< vertices of the surface
     std::size_t limit_triangles = 0;

@@ -63,6 +63,7 @@ struct TryOn {
     int level = 1;                          ///< of subdivision, 0 to 8
     /// One render and one row of the sheet each, see parse_dye. Empty: the fabric's own dye.
     std::vector<std::string> dyes{"white", "crimson"};
+    bool keeps_own_dye = false; ///< a dyed fabric has its own dye in place of `dyes`
     std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_lamps
     double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
     int width = 800;
