@@ -27,7 +27,7 @@ struct GarmentCheck final : Command {
     bool json = false, strict = false;
 
     void options(Options &o) override {
-        o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
+        o.argument(&mesh, "MESH", "mesh: OBJ, glTF, PLY, OFF, FBX, DAE or STL").required();
         add_unit(o, unit, "length unit of the mesh");
         add_up(o, up);
         add_sewing_tolerance(o, seams.tolerance);

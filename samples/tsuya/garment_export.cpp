@@ -19,7 +19,7 @@ struct GarmentExport final : Command {
     std::string dye{}, grain{}, up{};
 
     void options(Options &o) override {
-        o.argument(&job.garment, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
+        o.argument(&job.garment, "MESH", "mesh: OBJ, glTF, PLY, OFF, FBX, DAE or STL").required();
         o.option("-o,--output", &output, "OUT.glb", "the garment with its fabrics, for viewers")
             .required()
             .result({".glb"});

@@ -26,7 +26,7 @@ struct GarmentSubdivide final : Command {
     bool strict = false;
 
     void options(Options &o) override {
-        o.argument(&mesh, "MESH", "MESH.obj, .gltf, .glb, .ply or .off").required();
+        o.argument(&mesh, "MESH", "mesh: OBJ, glTF, PLY, OFF, FBX, DAE or STL").required();
         o.option("-o,--output", &output, "OUT.obj|OUT.ply",
                  "the triangles; a PLY has warp and weft, too")
             .required()

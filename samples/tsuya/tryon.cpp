@@ -38,8 +38,9 @@ struct TryOn final : Command {
     }
 
     void add_garment(Options &o) {
-        const Option &mesh = o.option("--garment", &garment, "MESH",
-                                      "mesh with the UV of its panels (OBJ, glTF, PLY, OFF)");
+        const Option &mesh =
+            o.option("--garment", &garment, "MESH",
+                     "mesh with the UV of its panels (OBJ, glTF, PLY, OFF, FBX, DAE, STL)");
         o.option("--frames", &job.frames, "MESH...",
                  "meshes with the garment's faces and other positions, each with pictures of its "
                  "own; without --garment the first of them is the garment")

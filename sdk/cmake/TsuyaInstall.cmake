@@ -47,7 +47,7 @@ foreach(component IN LISTS components)
     if(NOT type STREQUAL INTERFACE_LIBRARY)
         set(pc_libs "-L\${libdir}" -ltsuya_${component})
     endif()
-    if(component STREQUAL color) # loads its module of pictures
+    if(component MATCHES "^(color|garment)$") # load their modules
         list(APPEND pc_libs -Wl,-rpath,\${libdir}/tsuya)
     endif()
     get_target_property(linked tsuya_${component} INTERFACE_LINK_LIBRARIES)

@@ -64,6 +64,7 @@ const std::vector<Owned> kOwners{
     {"OpenColorIO/", {"color"}},
     {"OpenImageIO/", {"color"}},
     {"OpenMesh/", {"garment"}},
+    {"assimp/", {"garment"}},
     {"opensubdiv/", {"garment"}},
     {"draco/", {"garment"}},
     {"meshoptimizer.h", {"garment"}},

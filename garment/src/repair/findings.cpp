@@ -154,7 +154,8 @@ void find_shear(const Report &r, Findings &f) {
 void find_uv(const Report &r, Findings &f) {
     if (r.faces_without_uv == r.faces || r.uvs == 0) {
         f.add(Severity::note, "no_uv", "no face has UVs",
-              "no yarn directions unless a grain is stated");
+              "no yarn directions unless the warp is stated: --grain vertical, in a scene "
+              "invented_grain_deg = 0");
         return;
     }
     f.count(r.faces_without_uv, Severity::warning, "faces_without_uv", "face has", "faces have",

@@ -41,9 +41,9 @@ struct MeshFile {
 /// Extensions that read_mesh takes, lower case, with the dot.
 const std::vector<std::string> &mesh_extensions();
 
-/// Reads `.obj`, `.gltf`, `.glb`, `.ply` or `.off`, by the file's extension. Throws Error naming
-/// the file for another extension, and what the format's reader throws; Interrupted where
-/// `progress` says stop, as all readers.
+/// Reads `.obj`, `.gltf`, `.glb`, `.ply`, `.off`, `.fbx`, `.dae` or `.stl`, by the file's
+/// extension. Throws Error naming the file for another extension, and what the format's reader
+/// throws; Interrupted where `progress` says stop, as all readers.
 MeshFile read_mesh(const std::filesystem::path &path, const Progress &progress = {});
 
 } // namespace tsuya::garment
