@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -129,6 +130,48 @@ TEST(WeaveGeometry, AThreadInAPlainWeaveTakesThePathOfPeirce) {
         steepest = std::max(
             steepest, std::abs(mean_height(repeat, 0, 0, k + 1) - mean_height(repeat, 0, 0, k)));
     EXPECT_NEAR(steepest * 48 / cloth.weft.spacing(), std::tan(angle), 0.03 * std::tan(angle));
+}
+
+// The limit of [Peirce], for flat sections with his spacings less the flat parts: the yarns keep
+// their sections below it, and squeeze each other beyond.
+TEST(WeaveGeometry, YarnsThatJamSqueezeEachOther) {
+    const auto plain = [](double per_cm) {
+        Weave cloth;
+        cloth.name = "jammed";
+        cloth.warp = {.per_cm = per_cm, .width = 0.15e-3, .flattening = 0.22, .filaments = 20};
+        cloth.weft = cloth.warp;
+        return cloth;
+    };
+    const auto jam = [](const Weave &cloth) { // at most 1
+        const double free = cloth.warp.spacing() - cloth.warp.width + cloth.warp.thickness();
+        const double share = free / (2 * cloth.warp.thickness());
+        return 2 * std::sqrt(std::max(0.0, 1 - share * share));
+    };
+    const Weave open = plain(55), jammed = plain(58);
+    ASSERT_LT(jam(open), 0.98);
+    ASSERT_GT(jam(jammed), 1.02);
+    const GeometryOptions fine{.points_per_crossing = 48};
+    const WeaveReport free = report_weave(open, fine), squeezed = report_weave(jammed, fine);
+    EXPECT_EQ(free.squeeze, 0);
+    EXPECT_NEAR(free.warp_thickness, open.warp.thickness(), 1e-9);
+    EXPECT_GT(squeezed.squeeze, 0);
+    EXPECT_LT(squeezed.squeeze, 0.1);
+    EXPECT_GT(squeezed.warp_thickness, jammed.warp.thickness());
+    EXPECT_GT(squeezed.warp_weft_gap, -0.25e-6);
+    EXPECT_NEAR(squeezed.warp_decitex / free.warp_decitex, 1, 0.02);
+    EXPECT_THROW(report_weave(plain(66)), Error);
+}
+
+TEST(WeaveGeometry, WeavesOfTheStudyHaveRoom) {
+    int count = 0;
+    for (const auto &entry : std::filesystem::directory_iterator(TSUYA_STUDY_WEAVES)) {
+        const WeaveReport report =
+            report_weave(read_weave(entry.path()), {.points_per_crossing = 24});
+        EXPECT_GT(report.warp_weft_gap, -0.5e-6) << entry.path();
+        EXPECT_LT(report.squeeze, 0.03) << entry.path();
+        ++count;
+    }
+    EXPECT_GT(count, 20);
 }
 
 TEST(WeaveGeometry, FinerPointsGiveTheSameCloth) {

@@ -1,5 +1,6 @@
 #include "weave_layout.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tsuya/sdk/error.h"
@@ -63,9 +64,10 @@ void check_twist(const std::string &where, double turns, double points) {
                      "expected fewer turns or more points_per_crossing"});
 }
 
-YarnSection section_of(const Yarn &yarn, double twist_per_m) {
-    return press(YarnSection::of(yarn.width, yarn.thickness()), yarn.spacing(), yarn.filaments,
-                 twist_per_m);
+/// \param share of the width that the spacing leaves
+YarnSection section_of(const Yarn &yarn, double twist_per_m, double share) {
+    return press(YarnSection::of(yarn.width, yarn.thickness()),
+                 share * std::min(yarn.width, yarn.spacing()), yarn.filaments, twist_per_m);
 }
 
 YarnSection grown(YarnSection section, double by) {
@@ -73,12 +75,50 @@ YarnSection grown(YarnSection section, double by) {
     return section;
 }
 
-/// Yarns that are pulled very differently may find no paths clear of each other.
-void check_room(const std::string &where, const WeaveLayout &layout) {
-    constexpr double kMostOverlap = 0.02; // of the distance of the axes
-    if (layout.paths.overlap > kMostOverlap * (layout.warp.radius + layout.weft.radius))
-        throw Error({"the yarns pass through each other by " +
-                         std::to_string(layout.paths.overlap * 1e6) + " micrometres",
+bool has_room(const WeaveLayout &layout) {
+    constexpr double kMostOverlap = 0.005; // of the distance of the axes
+    return layout.paths.overlap <= kMostOverlap * (layout.warp.radius + layout.weft.radius);
+}
+
+/// Sections, filaments and paths of yarns that have `share` of their width.
+void place_yarns(const Weave &weave, double share, double stiffness_length, WeaveLayout &layout) {
+    const double warp_twist =
+        layout.warp_turns / (layout.draft.picks * layout.weft_spacing * layout.tiles_y);
+    const double weft_twist =
+        layout.weft_turns / (layout.draft.ends * layout.warp_spacing * layout.tiles_x);
+    layout.warp = section_of(weave.warp, warp_twist, share);
+    layout.weft = section_of(weave.weft, weft_twist, share);
+    layout.warp_packing = pack_filaments(layout.warp, weave.warp.filaments, warp_twist);
+    layout.weft_packing = pack_filaments(layout.weft, weave.weft.filaments, weft_twist);
+    // Filaments come as near to the surface of their yarn as to each other: no nearer between the
+    // points of the paths either
+    const double clearance = kClearance * std::max(layout.warp_packing.filament_radius,
+                                                   layout.weft_packing.filament_radius);
+    layout.paths = solve_paths({.draft = layout.draft,
+                                .warp_spacing = layout.warp_spacing,
+                                .weft_spacing = layout.weft_spacing,
+                                .warp = grown(layout.warp, clearance / 2),
+                                .weft = grown(layout.weft, clearance / 2),
+                                .points = layout.points,
+                                .stiffness_length = stiffness_length,
+                                .warp_tension = weave.warp.tension,
+                                .weft_tension = weave.weft.tension});
+}
+
+/// Yarns that jam, which is when they find no paths clear of each other, squeeze each other
+/// narrower and so thicker until they do.
+void place_jammed(const Weave &weave, const std::string &where, double stiffness_length,
+                  WeaveLayout &layout) {
+    constexpr int kMostPercent = 10; // of their width, our choice
+    const double overlap = layout.paths.overlap;
+    for (int percent = 1; percent <= kMostPercent && !has_room(layout); ++percent) {
+        layout.squeeze = 0.01 * percent;
+        place_yarns(weave, 1 - layout.squeeze, stiffness_length, layout);
+    }
+    if (!has_room(layout))
+        throw Error({"the yarns pass through each other by " + std::to_string(overlap * 1e6) +
+                         " micrometres, and by " + std::to_string(layout.paths.overlap * 1e6) +
+                         " where they squeeze each other narrower by a tenth",
                      where, "expected thinner yarns, fewer of them, or tensions less apart"});
 }
 
@@ -106,26 +146,9 @@ WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
     check_twist(name + ".weft", layout.weft_turns,
                 static_cast<double>(layout.draft.ends) * layout.tiles_x * layout.points);
     check_size(weave, layout);
-    const double warp_twist = layout.warp_turns / (size_y * layout.tiles_y);
-    const double weft_twist = layout.weft_turns / (size_x * layout.tiles_x);
-    layout.warp = section_of(weave.warp, warp_twist);
-    layout.weft = section_of(weave.weft, weft_twist);
-    layout.warp_packing = pack_filaments(layout.warp, weave.warp.filaments, warp_twist);
-    layout.weft_packing = pack_filaments(layout.weft, weave.weft.filaments, weft_twist);
-    // Filaments come as near to the surface of their yarn as to each other: no nearer between the
-    // points of the paths either
-    const double clearance = kClearance * std::max(layout.warp_packing.filament_radius,
-                                                   layout.weft_packing.filament_radius);
-    layout.paths = solve_paths({.draft = layout.draft,
-                                .warp_spacing = layout.warp_spacing,
-                                .weft_spacing = layout.weft_spacing,
-                                .warp = grown(layout.warp, clearance / 2),
-                                .weft = grown(layout.weft, clearance / 2),
-                                .points = layout.points,
-                                .stiffness_length = options.stiffness_length,
-                                .warp_tension = weave.warp.tension,
-                                .weft_tension = weave.weft.tension});
-    check_room(name, layout);
+    place_yarns(weave, 1, options.stiffness_length, layout);
+    if (!has_room(layout))
+        place_jammed(weave, name, options.stiffness_length, layout);
     return layout;
 }
 

@@ -19,6 +19,7 @@ struct WeaveLayout {
     int points = 12; ///< of a path per crossing
     int tiles_x = 1, tiles_y = 1;
     double warp_turns = 0, weft_turns = 0; ///< whole, over all tiles
+    double squeeze = 0;                    ///< share of their width that jammed yarns lost
     YarnPaths paths{};
 };
 

@@ -151,6 +151,7 @@ WeaveReport report_weave(const Weave &weave, const GeometryOptions &options) {
             report.warp_weft_gap = std::min(report.warp_weft_gap, gap_at(layout, e, p));
     report.neighbour_gap = std::min(layout.warp_spacing - 2 * layout.warp.half_width(),
                                     layout.weft_spacing - 2 * layout.weft.half_width());
+    report.squeeze = layout.squeeze;
     report.warp_crimp =
         crimp(layout.paths.warp, layout.paths.warp_points, layout.weft_spacing / layout.points);
     report.weft_crimp =

@@ -69,17 +69,17 @@ FilamentPacking pack_filaments(const YarnSection &section, int count, double twi
     return {kLoose * r, (1 - kLoose * kApart) * r, std::move(rings)};
 }
 
-YarnSection press(const YarnSection &section, double spacing, int filaments, double twist_per_m) {
-    if (2 * section.half_width() <= spacing)
+YarnSection press(const YarnSection &section, double width, int filaments, double twist_per_m) {
+    if (2 * section.half_width() <= width)
         return section;
     constexpr double kStep = 1.005;
     const double filament = pack_filaments(section, filaments, twist_per_m).filament_radius;
-    for (double thickness = 2 * section.radius; thickness < spacing; thickness *= kStep) {
-        const YarnSection pressed = YarnSection::of(spacing, thickness);
+    for (double thickness = 2 * section.radius; thickness < width; thickness *= kStep) {
+        const YarnSection pressed = YarnSection::of(width, thickness);
         if (pack_filaments(pressed, filaments, twist_per_m).filament_radius >= filament)
             return pressed;
     }
-    return YarnSection::of(spacing, spacing); // no room
+    return YarnSection::of(width, width); // no room
 }
 
 glm::dvec2 ring_place(const FilamentRing &ring, double phase) {

@@ -40,9 +40,9 @@ struct FilamentPacking {
 /// inclines the filaments of a ring, which need more room in it then.
 FilamentPacking pack_filaments(const YarnSection &section, int count, double twist_per_m = 0);
 
-/// The section of a yarn whose neighbours are `spacing` apart. One that is wider than that is
-/// pressed: as wide as the spacing, and as thick as the same filaments need then.
-YarnSection press(const YarnSection &section, double spacing, int filaments, double twist_per_m);
+/// The section of a yarn that has room for a `width`. One that is wider than that is pressed: that
+/// wide, and as thick as the same filaments need then.
+YarnSection press(const YarnSection &section, double width, int filaments, double twist_per_m);
 
 /// The place in a ring at `phase` (one round is 1, any value): across the yarn and along its
 /// normal. Places a phase of 1 / count apart are at least two half chords apart.

@@ -11,6 +11,11 @@
 /// the condition that no two yarns come nearer than half the sum of their thicknesses. So floats
 /// are nearly straight, and the crimp divides itself between warp and weft by Yarn::tension.
 ///
+/// **Jamming.** There is a limit to how close yarns of one section lie ([Peirce]: a plain weave of
+/// round yarns is jammed where sqrt(1 - (p / D)^2) of warp and of weft sum to 1, p being the
+/// spacing and D the sum of the diameters). Beyond it the yarns squeeze each other: all become
+/// narrower, and so thicker, by the fewest per cent that let them pass, at most ten.
+///
 /// **Filaments** lie in rings parallel to the section of their yarn, so that twist moves each along
 /// its ring and they never touch: any two are apart by about 1 % of the sum of their radii. A yarn
 /// that is wider than the spacing is pressed by its neighbours (see Yarn), and its filaments, which
@@ -50,6 +55,7 @@ struct WeaveReport {
     double weft_thickness = 0;   ///< the same of weft
     double warp_weft_gap = 0;    ///< least distance between surfaces; < 0 where they overlap
     double neighbour_gap = 0;    ///< least distance between yarns of the same system; 0: pressed
+    double squeeze = 0;          ///< share of their width that jammed yarns lost to pass each other
     double warp_crimp = 0;       ///< length of a warp yarn over that of the cloth, less 1
     double weft_crimp = 0;       ///< the same of weft
     double warp_fill = 0;        ///< share of a warp yarn's section that filaments fill
