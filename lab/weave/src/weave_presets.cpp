@@ -52,12 +52,14 @@ Yarn silk(double per_cm, double width, double flattening, int filaments) {
             .transmission = {0.8, 0.78, 0.7}};
 }
 
-/// 16 momme: warp 2 x 20/22 denier without twist, weft 3 x 20/22 denier with a crepe's twist. Both
-/// the weight and the twist are of the trade's range [CrepeSatin], where up to 2600 turns are
-/// usual.
+/// 19 momme, the weight of dresses: warp 2 x 20/22 denier without twist, weft 4 x 20/22 denier with
+/// a crepe's twist. Weights of the trade are 12, 16, 19 and 30 momme, and up to 2600 turns are
+/// usual [CrepeSatin]; 300 to 600 threads to the square inch (409 here) in floats over 4 or 7
+/// [CrepeBackSatin]; wefts of crepe are 2 to 4 x 20/22 denier [CrepeWeft]. Denser ends would be
+/// taller than wide, as circles about triangular filaments are what is packed.
 Weave silk_charmeuse() {
-    const Yarn warp = silk(110, 0.100e-3, 0.645, 36);
-    Yarn weft = silk(45, 0.120e-3, 0.812, 54);
+    const Yarn warp = silk(118, 0.100e-3, 0.645, 36);
+    Yarn weft = silk(43, 0.136e-3, 0.8, 72);
     weft.twist_per_m = 2000;
     weft.tension = kStraight;
     return {"silk charmeuse", parse_draft("satin 8"), warp, weft};
