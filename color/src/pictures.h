@@ -79,6 +79,8 @@ class Pictures {
     /// Floats are clamped to [0, 1]; one that is not a number is an Error.
     virtual EncodedPicture read_encoded(const std::filesystem::path &path,
                                         FloatCode floats) const = 0;
+    /// A PNG in memory. \param name for errors
+    virtual EncodedPicture decode_png(std::string_view bytes, const std::string &name) const = 0;
     virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
     /// Width and height of a text in pixels. Throws Error at `sheet.font`.
     virtual std::array<int, 2> text_size(const std::string &text, int size,

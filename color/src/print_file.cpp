@@ -22,18 +22,34 @@ std::uint8_t sample(const EncodedPicture &picture, std::size_t pixel, int channe
                         static_cast<std::size_t>(channel)];
 }
 
-EncodedPicture read_grey_or_rgb(const std::filesystem::path &path, FloatCode floats) {
-    EncodedPicture picture = pictures().read_encoded(path, floats);
+EncodedPicture grey_or_rgb(EncodedPicture picture, const std::filesystem::path &path) {
     if (colours(picture) != 1 && colours(picture) != 3)
         throw Error({"the picture has " + std::to_string(colours(picture)) + " colour channels",
                      path.string(), "expected grey or R, G, B, and alpha if wanted"});
     return picture;
 }
 
+Texture coverage_of(const EncodedPicture &samples) {
+    Texture texture{.width = samples.width, .height = samples.height, .channels = 1};
+    texture.data.reserve(pixels(samples));
+    for (std::size_t p = 0; p < pixels(samples); ++p) {
+        if (samples.alpha >= 0) {
+            texture.data.push_back(sample(samples, p, samples.alpha));
+            continue;
+        }
+        int sum = 0;
+        for (int c = 0; c < samples.channels; ++c)
+            sum += sample(samples, p, c);
+        texture.data.push_back(
+            static_cast<std::uint8_t>((sum + samples.channels / 2) / samples.channels));
+    }
+    return texture;
+}
+
 } // namespace
 
 Texture read_artwork(const std::filesystem::path &path) {
-    EncodedPicture samples = read_grey_or_rgb(path, FloatCode::srgb);
+    EncodedPicture samples = grey_or_rgb(pictures().read_encoded(path, FloatCode::srgb), path);
     const bool grey = colours(samples) == 1;
     Texture texture{
         .width = samples.width, .height = samples.height, .channels = samples.alpha >= 0 ? 4 : 3};
@@ -55,21 +71,11 @@ Texture read_artwork(const std::filesystem::path &path) {
 }
 
 Texture read_coverage(const std::filesystem::path &path) {
-    const EncodedPicture samples = read_grey_or_rgb(path, FloatCode::linear);
-    Texture texture{.width = samples.width, .height = samples.height, .channels = 1};
-    texture.data.reserve(pixels(samples));
-    for (std::size_t p = 0; p < pixels(samples); ++p) {
-        if (samples.alpha >= 0) {
-            texture.data.push_back(sample(samples, p, samples.alpha));
-            continue;
-        }
-        int sum = 0;
-        for (int c = 0; c < samples.channels; ++c)
-            sum += sample(samples, p, c);
-        texture.data.push_back(
-            static_cast<std::uint8_t>((sum + samples.channels / 2) / samples.channels));
-    }
-    return texture;
+    return coverage_of(grey_or_rgb(pictures().read_encoded(path, FloatCode::linear), path));
+}
+
+Texture decode_coverage(std::string_view bytes, const std::string &name) {
+    return coverage_of(grey_or_rgb(pictures().decode_png(bytes, name), name));
 }
 
 std::vector<Spectrum> rgb_inks() {

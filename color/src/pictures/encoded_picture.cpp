@@ -19,13 +19,15 @@ namespace {
                  path.string(), "expected values from 0 to 1"});
 }
 
-} // namespace
-
-EncodedPicture read_encoded_picture(const std::filesystem::path &path, FloatCode floats) {
+OIIO::ImageSpec plain_alpha() {
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    const auto in = open_picture(path, &config);
-    const OIIO::ImageSpec &spec = in->spec();
+    return config;
+}
+
+EncodedPicture read_samples(OIIO::ImageInput &in, const std::filesystem::path &path,
+                            FloatCode floats) {
+    const OIIO::ImageSpec &spec = in.spec();
     EncodedPicture picture{.width = spec.width,
                            .height = spec.height,
                            .channels = spec.nchannels,
@@ -37,13 +39,13 @@ EncodedPicture read_encoded_picture(const std::filesystem::path &path, FloatCode
                               static_cast<std::size_t>(spec.nchannels);
     picture.data.resize(count);
     if (!has_floats) {
-        if (!in->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, picture.data.data()))
-            fail_reading(path, in->geterror());
+        if (!in.read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, picture.data.data()))
+            fail_reading(path, in.geterror());
         return picture;
     }
     std::vector<float> linear(count);
-    if (!in->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, linear.data()))
-        fail_reading(path, in->geterror());
+    if (!in.read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, linear.data()))
+        fail_reading(path, in.geterror());
     const auto channels = static_cast<std::size_t>(spec.nchannels);
     for (std::size_t i = 0; i < count; ++i) {
         if (std::isnan(linear[i]))
@@ -54,6 +56,18 @@ EncodedPicture read_encoded_picture(const std::filesystem::path &path, FloatCode
         picture.data[i] = static_cast<std::uint8_t>(std::lround(255 * code));
     }
     return picture;
+}
+
+} // namespace
+
+EncodedPicture read_encoded_picture(const std::filesystem::path &path, FloatCode floats) {
+    const OIIO::ImageSpec config = plain_alpha();
+    return read_samples(*open_picture(path, &config), path, floats);
+}
+
+EncodedPicture decode_png_bytes(std::string_view bytes, const std::string &name) {
+    OIIO::Filesystem::IOMemReader proxy(bytes.data(), bytes.size());
+    return read_samples(*open_png(proxy, name, plain_alpha()), name, FloatCode::linear);
 }
 
 } // namespace tsuya

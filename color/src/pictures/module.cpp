@@ -21,6 +21,9 @@ class OiioPictures final : public Pictures {
                                 FloatCode floats) const override {
         return read_encoded_picture(path, floats);
     }
+    EncodedPicture decode_png(std::string_view bytes, const std::string &name) const override {
+        return decode_png_bytes(bytes, name);
+    }
     std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const override {
         return open_frame_file(path);
     }

@@ -37,6 +37,24 @@ void use_threads_of_arena() {
     OIIO::attribute("exr_threads", threads);
 }
 
+namespace {
+
+[[noreturn]] void fail_opening(const std::string &cause, const std::string &name) {
+    throw Error({"cannot read the picture: " + one_line(cause), name,
+                 "expected a picture such as PNG, JPEG, TIFF or EXR"});
+}
+
+/// \param input open
+std::unique_ptr<OIIO::ImageInput> flat_picture(std::unique_ptr<OIIO::ImageInput> input,
+                                               const std::string &name) {
+    const OIIO::ImageSpec &spec = input->spec();
+    if (spec.deep || spec.depth > 1)
+        throw Error({"the picture is deep or a volume", name, "expected a flat picture"});
+    return input;
+}
+
+} // namespace
+
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path,
                                                const OIIO::ImageSpec *config) {
     std::error_code ignored;
@@ -47,12 +65,20 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path
     use_threads_of_arena();
     auto input = OIIO::ImageInput::open(path.string(), config);
     if (!input)
-        throw Error({"cannot read the picture: " + one_line(OIIO::geterror()), path.string(),
-                     "expected a picture such as PNG, JPEG, TIFF or EXR"});
-    const OIIO::ImageSpec &spec = input->spec();
-    if (spec.deep || spec.depth > 1)
-        throw Error({"the picture is deep or a volume", path.string(), "expected a flat picture"});
-    return input;
+        fail_opening(OIIO::geterror(), path.string());
+    return flat_picture(std::move(input), path.string());
+}
+
+std::unique_ptr<OIIO::ImageInput> open_png(OIIO::Filesystem::IOProxy &bytes,
+                                           const std::string &name, const OIIO::ImageSpec &config) {
+    use_threads_of_arena();
+    auto input = OIIO::ImageInput::create("png");
+    OIIO::ImageSpec spec;
+    if (!input || !input->set_ioproxy(&bytes))
+        fail_opening(OIIO::geterror(), name);
+    if (!input->open("", spec, config))
+        fail_opening(input->geterror(), name);
+    return flat_picture(std::move(input), name);
 }
 
 void need_memory_for(const std::filesystem::path &path, const OIIO::ImageSpec &spec, int rows,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 namespace tsuya {
@@ -23,6 +24,10 @@ void use_threads_of_arena();
 /// \param config how a reader shall read; null: as it does by itself
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path,
                                                const OIIO::ImageSpec *config = nullptr);
+
+/// The same of a PNG in memory. The proxy must outlive the picture. \param name for errors
+std::unique_ptr<OIIO::ImageInput> open_png(OIIO::Filesystem::IOProxy &bytes,
+                                           const std::string &name, const OIIO::ImageSpec &config);
 
 /// Throws Error at the path where the memory for some rows of a picture is not available: its
 /// header may declare any size.

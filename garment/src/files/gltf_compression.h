@@ -25,10 +25,6 @@ void decode_meshopt(tinygltf::Model &model, const std::string &name);
 /// meshopt's. Skins without inverse bind matrices get -1. nullopt for documents without any.
 std::optional<std::string> adapted_to_parser(std::string_view bytes);
 
-/// Bytes of a buffer. Throws Error naming `where` if the buffer has not all of them.
-std::string_view buffer_bytes(const tinygltf::Model &model, int buffer, std::size_t offset,
-                              std::size_t count, const std::string &where);
-
 /// Appends a buffer and a view of all of it; its number.
 int add_buffer_view(tinygltf::Model &model, std::vector<unsigned char> bytes);
 

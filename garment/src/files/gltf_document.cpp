@@ -25,23 +25,11 @@ struct Sandbox {
     std::string refused; ///< the last path that was refused
 };
 
-bool inside(const std::filesystem::path &path, const std::filesystem::path &folder) {
-    std::error_code error;
-    const auto file = std::filesystem::weakly_canonical(path, error);
-    if (error)
-        return false;
-    const auto root = std::filesystem::weakly_canonical(folder, error);
-    if (error)
-        return false;
-    const auto relative = file.lexically_relative(root);
-    return !relative.empty() && *relative.begin() != "..";
-}
-
 /// tinygltf asks for a file in the folder first; that is the only place.
 bool read_buffer_file(std::vector<unsigned char> *out, std::string *error, const std::string &path,
                       void *user) {
     auto &sandbox = *static_cast<Sandbox *>(user);
-    if (sandbox.folder.empty() || !inside(path, sandbox.folder)) {
+    if (sandbox.folder.empty() || !lies_inside(path, sandbox.folder)) {
         sandbox.refused = path;
         return false;
     }
@@ -54,9 +42,11 @@ bool read_buffer_file(std::vector<unsigned char> *out, std::string *error, const
     return true;
 }
 
-/// Images are not needed and stay as they are.
-bool ignore_image(tinygltf::Image *, int, std::string *, std::string *, int, int,
-                  const unsigned char *, int, void *) {
+/// Images stay encoded. Those of data URIs are kept; others are where the document says.
+bool keep_image(tinygltf::Image *image, int, std::string *, std::string *, int, int,
+                const unsigned char *bytes, int size, void *) {
+    if (image->bufferView < 0)
+        image->image.assign(bytes, bytes + size);
     return true;
 }
 
@@ -236,6 +226,18 @@ void apply_sparse(const tinygltf::Model &model, const tinygltf::Accessor &access
 
 } // namespace
 
+bool lies_inside(const std::filesystem::path &path, const std::filesystem::path &folder) {
+    std::error_code error;
+    const auto file = std::filesystem::weakly_canonical(path, error);
+    if (error)
+        return false;
+    const auto root = std::filesystem::weakly_canonical(folder, error);
+    if (error)
+        return false;
+    const auto relative = file.lexically_relative(root);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
 tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &name,
                                     const std::filesystem::path &folder) {
     check_depth(json_text(bytes, name), name);
@@ -248,7 +250,7 @@ tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &n
         throw Error({"the file is larger than 4 GiB", name, "expected less"});
     Sandbox sandbox{folder, ""};
     tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(ignore_image, nullptr);
+    loader.SetImageLoader(keep_image, nullptr);
     loader.SetFsCallbacks({[](const std::string &, void *) { return true; },
                            [](const std::string &path, void *) { return path; }, read_buffer_file,
                            nullptr, &sandbox});

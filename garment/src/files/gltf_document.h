@@ -22,6 +22,13 @@ namespace tsuya::garment {
 tinygltf::Model parse_gltf_document(std::string_view bytes, const std::string &name,
                                     const std::filesystem::path &folder);
 
+/// Whether a path, through links and dots, leads into a folder.
+bool lies_inside(const std::filesystem::path &path, const std::filesystem::path &folder);
+
+/// Bytes of a buffer. Throws Error naming `where` if the buffer has not all of them.
+std::string_view buffer_bytes(const tinygltf::Model &model, int buffer, std::size_t offset,
+                              std::size_t count, const std::string &where);
+
 /// Numbers of an accessor, row by row, integers that are marked so normalised. Throws Error naming
 /// `where` if the accessor names bytes that the file does not have, has not `components` a row, or
 /// a number is not finite. \param rows expected number; 0: any

@@ -196,9 +196,9 @@ std::vector<std::uint32_t> weld(const Part &part) {
 class GltfReader {
   public:
     GltfReader(const tinygltf::Model &model, std::size_t bytes, const std::string &name,
-               const Progress &progress)
+               const std::filesystem::path &folder, const Progress &progress)
         : model_(model), name_(name), progress_(progress),
-          room_(kFreeCorners + kCornersPerByte * bytes) {
+          room_(kFreeCorners + kCornersPerByte * bytes), alpha_(model, folder, name) {
         for (const tinygltf::Buffer &buffer : model.buffers)
             room_ += kCornersPerByte * buffer.data.size();
     }
@@ -212,7 +212,8 @@ class GltfReader {
                          name_ + ": node " + std::to_string(index));
         }
         add_unplaced_meshes();
-        alpha_.report(model_, out_.findings);
+        alpha_.report(out_);
+        note_animations();
         if (out_.mesh.face_count() == 0)
             throw Error({"the file has no triangle", name_, "expected a mesh of triangles"});
         check_indices(out_.mesh, name_);
@@ -244,7 +245,7 @@ class GltfReader {
             const std::uint32_t panel = add_panel(
                 std::move(name),
                 {.object = node.name, .group = mesh.name, .material = material_of(primitive)});
-            alpha_.note(model_, primitive.material, out_.mesh.panel_name[panel]);
+            alpha_.note(primitive, part.uv, out_.mesh.panel_name[panel]);
             add_part(part, panel);
         }
     }
@@ -270,6 +271,19 @@ class GltfReader {
                  detail::counted(count, "mesh stands", "meshes stand") +
                      " in no node of the scene: " + names,
                  "", none_placed ? "read where their own coordinates put them" : "left out"});
+    }
+
+    void note_animations() {
+        if (model_.animations.empty())
+            return;
+        out_.findings.push_back(
+            {Severity::note, "animations_not_read",
+             detail::counted(model_.animations.size(), "animation is", "animations are") +
+                 " not read",
+             "",
+             "shown as nodes and joints stand in the file; frames can be the morph targets "
+             "(--morph-targets, in a scene morph_targets) or files of one frame each (--frames, "
+             "frames)"});
     }
 
     /// A panel of a name that no other has.
@@ -358,7 +372,7 @@ class GltfReader {
 MeshFile parse_gltf(std::string_view bytes, const std::string &name,
                     const std::filesystem::path &folder, const Progress &progress) {
     const tinygltf::Model model = parse_gltf_document(bytes, name, folder);
-    MeshFile file = GltfReader(model, bytes.size(), name, progress).read();
+    MeshFile file = GltfReader(model, bytes.size(), name, folder, progress).read();
     share_equal_uvs(file.mesh);
     return file;
 }

@@ -111,16 +111,24 @@ void split_panels_by_island(PolygonMesh &mesh) {
 
 void split_panels_by_island(MeshFile &file) {
     split_panels_by_island(file.mesh);
-    std::vector<FabricHint> hints;
-    for (FabricHint &hint : file.hints) {
-        const std::string island = hint.panel + "/island";
+    const auto for_islands = [&](const std::string &of, auto &&visit) {
         for (const std::string &panel : file.mesh.panel_name)
-            if (panel == hint.panel || panel.starts_with(island)) {
-                hints.push_back(hint);
-                hints.back().panel = panel;
-            }
-    }
+            if (panel == of || panel.starts_with(of + "/island"))
+                visit(panel);
+    };
+    std::vector<FabricHint> hints;
+    for (const FabricHint &hint : file.hints)
+        for_islands(hint.panel, [&](const std::string &panel) {
+            hints.push_back(hint);
+            hints.back().panel = panel;
+        });
     file.hints = std::move(hints);
+    for (FileOpacity &opacity : file.opacities) {
+        std::vector<std::string> panels;
+        for (const std::string &panel : opacity.panels)
+            for_islands(panel, [&](const std::string &island) { panels.push_back(island); });
+        opacity.panels = std::move(panels);
+    }
 }
 
 std::vector<std::uint32_t> find_panels(const PolygonMesh &mesh, std::string_view pattern) {

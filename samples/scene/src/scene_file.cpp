@@ -3,6 +3,7 @@
 #include <map>
 
 #include "dressing.h"
+#include "file_opacity.h"
 #include "index_of.h"
 #include "patterns.h"
 #include "scene_meshes.h"
@@ -139,7 +140,11 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
                        .back_print = entry.back ? fabrics[*entry.back].print : std::nullopt,
                        .opacity = index_of<OpacityTag>(opacity)},
                       entry.panels, fabrics, mesh.file, mesh.options);
-            add_object(scene, entry.name, meshes.add(std::move(mesh)), std::move(dressing));
+            Surface surface = meshes.add(std::move(mesh));
+            const std::size_t m = built.reports.size() - 1;
+            add_file_opacities(meshes.file(m), meshes.options(m), meshes.report(m).metres_per_uv,
+                               dressing, scene);
+            add_object(scene, entry.name, std::move(surface), std::move(dressing));
         }
     if (file.backdrop) {
         add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape),

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "dressing.h"
+#include "file_opacity.h"
 #include "patterns.h"
 #include "scene_meshes.h"
 #include "tsuya/color/dye.h"
@@ -266,6 +267,8 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
                                                .where = job.garment.string(),
                                                .options = options,
                                                .tolerance_px = job.tolerance_px}));
+    add_file_opacities(stage.meshes.file(0), stage.meshes.options(0),
+                       stage.meshes.report(0).metres_per_uv, dressing, scene);
     scene.objects.push_back(std::move(dressing).object("garment", {0}));
     stage.meshes.add_points(frame_points_of(stage.meshes.file(0).mesh, stage.further, options));
     if (!job.body.empty())

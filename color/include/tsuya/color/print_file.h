@@ -3,6 +3,8 @@
 /// Artwork for prints on cloth: picture files, and colours as reflectances.
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "tsuya/sdk/spectrum.h"
@@ -19,6 +21,9 @@ Texture read_artwork(const std::filesystem::path &path);
 /// mean of R, G and B), 0 none and 255 all. Floats are taken as they are: 0.5 is half. Throws as
 /// read_artwork.
 Texture read_coverage(const std::filesystem::path &path);
+
+/// The same of a PNG in memory. \param name stands for it in errors
+Texture decode_coverage(std::string_view bytes, const std::string &name);
 
 /// Reflectances of the corners of the cube of linear Rec. 709 RGB, as PrintLayer::inks has them: of
 /// each, reflectance_of_srgb. What is interpolated between them has the colour that is

@@ -18,9 +18,11 @@ namespace tsuya::garment {
 /// are shapes with one target at full weight. Skins are applied as the joints stand in the file.
 /// Anisotropy and sheen are read as hints; where the file has TANGENT, the direction is counted
 /// from it, else from +u. Meshes that stand in no node are findings (`unplaced_meshes`), read where
-/// no mesh stands in one; so are alpha modes (`alpha_not_shown`). Quantised attributes, Draco and
-/// meshopt compression are read; another required extension, unless it is one of materials,
-/// textures or lights, is an Error. Images, cameras, lines and points are left aside.
+/// no mesh stands in one. The alpha of materials of the alphaMode MASK or BLEND is read as opacity
+/// (`alpha_opacity`), or a finding says why not (`alpha_not_shown`). Quantised attributes, Draco
+/// and meshopt compression are read; another required extension, unless it is one of materials,
+/// textures or lights, is an Error. Other images, animations (`animations_not_read`), cameras,
+/// lines and points are left aside.
 ///
 /// Counts are checked against the bytes that the file has before anything is allocated; buffers
 /// may come from the file's own folder alone.

@@ -29,10 +29,26 @@ struct FabricHint {
     double grain() const;
 };
 
+/// What a file's material says about where there is no cloth.
+struct FileOpacity {
+    std::string material{};            ///< its name, or number
+    std::vector<std::string> panels{}; ///< that have it
+    /// A PNG as the file has it, whose alpha counts; it lies on the square from 0 to 1 of the UVs,
+    /// and again on those beside it. Empty: the factor alone.
+    std::string picture{};
+    std::string picture_name{};   ///< names it in errors
+    bool mirrored_repeat = false; ///< every other of these squares has its mirror image
+    double factor = 1;            ///< times alpha, 0 to 1
+    /// There is all of the cloth where alpha times the factor is as much, and none elsewhere;
+    /// without it, alpha times the factor is the share of cloth.
+    std::optional<double> cutoff{};
+};
+
 /// A mesh as its file has it.
 struct MeshFile {
     PolygonMesh mesh{};
-    std::vector<FabricHint> hints{}; ///< of panels whose material states anisotropy or sheen
+    std::vector<FabricHint> hints{};      ///< of panels whose material states anisotropy or sheen
+    std::vector<FileOpacity> opacities{}; ///< no panel has two
     /// Further shapes of the same topology, each as long as `mesh.position` and in its units.
     std::vector<std::vector<glm::dvec3>> morph_targets{};
     std::vector<Finding> findings{}; ///< what the file has and the mesh has not

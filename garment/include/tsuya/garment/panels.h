@@ -17,7 +17,7 @@ namespace tsuya::garment {
 /// the file names no panel, as its island is.
 void split_panels_by_island(PolygonMesh &mesh);
 
-/// The same, with the hints of a file, which are for panels.
+/// The same, with the hints and opacities of a file, which are for panels.
 void split_panels_by_island(MeshFile &file);
 
 /// The panels that a pattern names, in their order, perhaps none: it is compared with the panel's

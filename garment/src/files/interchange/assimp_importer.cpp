@@ -1,5 +1,8 @@
 // The module: Assimp without any of its steps that change a mesh.
 
+#include <new>
+#include <stdexcept>
+
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
@@ -67,6 +70,8 @@ class AssimpImporter final : public Importer {
         const std::string name = "/mesh" + extension;
         importer.SetIOHandler(new OneFile(bytes, name));
         const aiScene *const scene = importer.ReadFile(name, 0);
+        if (!scene && importer.GetErrorString() == std::string("std::bad_alloc"))
+            throw std::bad_alloc();
         if (!scene)
             throw std::runtime_error(cause_of(importer.GetErrorString()));
         return mesh_of(*scene, extension, std::move(remarks));
