@@ -1,5 +1,6 @@
 // tsuya render: a scene file to light transport.
 
+#include <algorithm>
 #include <iostream>
 #include <optional>
 
@@ -23,7 +24,7 @@ constexpr int kMostSamples = 65536;
 
 struct Render final : Command {
     fs::path scene{}, output{}, stats{};
-    std::optional<int> samples{}, channels{}, threads{};
+    std::optional<int> samples{}, channels{}, threads{}, frames{};
     std::optional<double> error{}, seconds{}, tolerance_px{};
     std::optional<std::uint32_t> seed{};
     std::vector<int> crop{};
@@ -61,6 +62,10 @@ struct Render final : Command {
         o.option("--aov", &aovs, "A,B,...", "AOVs to write beside the light transport")
             .with_commas()
             .one_of(aov_names());
+        o.option("--frames", &frames, "N",
+                 "number of frames of a scene that moves, each with results of its own: "
+                 "OUT-0000.exr and on")
+            .range(1, 9999);
         o.option("--tolerance-px", &tolerance_px, "PIXELS",
                  "largest distance of the triangles from the limit surface, in the picture")
             .range(1e-3, 1e3);
@@ -77,7 +82,8 @@ struct Render final : Command {
                 "what there is in OUT.exr, and OUT.exr.checkpoint for --resume; a render that is "
                 "killed leaves its last checkpoint. SIGUSR1 writes the picture so far to OUT.exr, "
                 "and the render goes on. The lamps of the scene's "
-                "[output] give OUT-LAMP.png.");
+                "[output] give OUT-LAMP.png. With --frames, "
+                "--resume keeps frames whose results are newer than the files of the scene.");
     }
 
     Status run(Console &console) override {
@@ -99,7 +105,8 @@ struct Render final : Command {
         RenderSettings settings = settings_of(file);
         settings.snapshot_wanted = &watch_snapshot_signal();
         settings.snapshot = [&](const RenderResult &result) { write_snapshot(result, console); };
-        const scene::BuiltScene built = scene::build_scene(file, console.progress());
+        scene::BuiltScene built = scene::build_scene(file, console.progress(),
+                                                     static_cast<std::size_t>(frames.value_or(1)));
         for (const scene::MeshReport &mesh : built.reports)
             console.warnings(mesh.report, mesh.mesh.string());
         if (explains) {
@@ -107,9 +114,26 @@ struct Render final : Command {
             return kDone;
         }
         for_each_place(file, [](const fs::path &place) { scene::prepare_output_file(place); });
-        if (resume && !fs::exists(settings.checkpoint))
+        KeptMaterials kept;
+        const auto count = static_cast<std::size_t>(frames.value_or(1));
+        for (frame_ = 0; frame_ < count; ++frame_) {
+            if (is_done(file))
+                continue;
+            if (frame_ > 0)
+                built.frames.show(frame_, built.scene);
+            settings.checkpoint = checkpoint();
+            const Status status = render_frame(file, built.scene, settings, kept, console);
+            if (status != kDone)
+                return status;
+        }
+        return kDone;
+    }
+
+    Status render_frame(const scene::SceneFile &file, const Scene &shown,
+                        const RenderSettings &settings, KeptMaterials &kept, Console &console) {
+        if (resume && !frames && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
-        const RenderResult result = render(built.scene, settings, console.progress());
+        const RenderResult result = render(shown, settings, console.progress(), &kept);
         for (const Problem &warning : result.warnings)
             console.warning(warning);
         write_results(file, result);
@@ -119,6 +143,22 @@ struct Render final : Command {
                           ? "interrupted; --resume goes on from " + settings.checkpoint.string()
                           : "interrupted");
         return kInterrupted;
+    }
+
+    /// A frame of a sequence that is to be resumed and was finished: its results are there, and
+    /// newer than all that the scene names.
+    bool is_done(const scene::SceneFile &file) const {
+        if (!resume || !frames || fs::exists(checkpoint()))
+            return false;
+        std::error_code code;
+        bool done = true;
+        fs::file_time_type newest = fs::last_write_time(scene, code);
+        for (const fs::path &read : file.files)
+            newest = std::max(newest, fs::last_write_time(read, code));
+        for_each_place_of(file, frame_, [&](const fs::path &place) {
+            done = done && fs::exists(place) && fs::last_write_time(place, code) >= newest;
+        });
+        return done;
     }
 
     static void explain_plan(const scene::BuiltScene &built, const RenderSettings &settings) {
@@ -157,14 +197,20 @@ struct Render final : Command {
         return {crop[0], crop[1], crop[2], crop[3]};
     }
 
-    fs::path checkpoint() const {
-        fs::path path = output;
-        return path += ".checkpoint";
+    /// A name with the number of a frame, where there are frames.
+    fs::path of_frame(fs::path path, std::size_t frame) const {
+        return frames ? path.replace_filename(path.stem().string() + scene::frame_suffix(frame) +
+                                              path.extension().string())
+                      : path;
     }
 
-    fs::path picture_of(const NamedLamp &lamp) const {
+    fs::path transport(std::size_t frame) const { return of_frame(output, frame); }
+    fs::path checkpoint() const { return transport(frame_) += ".checkpoint"; }
+
+    fs::path picture_of(const NamedLamp &lamp, std::size_t frame) const {
         fs::path path = output;
-        return path.replace_filename(output.stem().string() + "-" + lamp.name + ".png");
+        return of_frame(path.replace_filename(output.stem().string() + "-" + lamp.name + ".png"),
+                        frame);
     }
 
     /// Before the scene is read.
@@ -187,17 +233,23 @@ struct Render final : Command {
     }
 
     template <class Act> void for_each_place(const scene::SceneFile &file, Act &&act) const {
-        act(output);
+        for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames.value_or(1)); ++frame)
+            for_each_place_of(file, frame, act);
+    }
+
+    template <class Act>
+    void for_each_place_of(const scene::SceneFile &file, std::size_t frame, Act &&act) const {
+        act(transport(frame));
         for (const NamedLamp &lamp : file.output.lamps)
-            act(picture_of(lamp));
+            act(picture_of(lamp, frame));
         if (!stats.empty())
-            act(stats);
+            act(of_frame(stats, frame));
     }
 
     /// A picture that cannot be written does not end the render.
     void write_snapshot(const RenderResult &result, Console &console) const {
         try {
-            write_spectral_exr(output, result.image);
+            write_spectral_exr(transport(frame_), result.image);
         } catch (const Error &problems) {
             console.warnings(problems);
         }
@@ -207,20 +259,23 @@ struct Render final : Command {
         // Stopped before the first sample: what stands under the name is not replaced by nothing
         if (result.stats.interrupted && result.stats.samples_per_pixel == 0)
             return;
-        write_spectral_exr(output, result.image);
-        std::cout << output.string() << "\n";
+        write_spectral_exr(transport(frame_), result.image);
+        std::cout << transport(frame_).string() << "\n";
         // Only now is the checkpoint of no more use
         if (!result.stats.interrupted)
             fs::remove(checkpoint());
         if (!result.stats.interrupted)
             for (const NamedLamp &lamp : file.output.lamps) {
-                const fs::path path = picture_of(lamp);
+                const fs::path path = picture_of(lamp, frame_);
                 write_png(path, scene::picture_under(result.image, {&lamp, 1}, file.output.look));
                 std::cout << path.string() << "\n";
             }
         if (!stats.empty())
-            write_json(stats, json_of(result.stats));
+            write_json(of_frame(stats, frame_), json_of(result.stats));
     }
+
+  private:
+    std::size_t frame_ = 0; ///< that is rendered
 };
 
 } // namespace

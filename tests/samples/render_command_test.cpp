@@ -46,6 +46,45 @@ TEST(RenderCommand, RendersAScene) {
     EXPECT_FALSE(fs::exists(exr.string() + ".checkpoint"));
 }
 
+TEST(RenderCommand, RendersFramesAndGoesOnWithThem) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch, "[output]\nlamps = [\"A\"]\n");
+    std::string text = read_file(scene_file), moved = scene::cloth_obj();
+    moved.replace(moved.find("0.6 0\n"), 5, "0.6 0.2");
+    scratch.write("moved.obj", moved);
+    text.insert(text.find("fabric = \"silk\""), "frames = [\"moved.obj\"]\n");
+    scratch.write("small.scene.toml", text);
+    const std::vector<std::string> call{
+        "render",   scene_file, "-o",      (scratch / "a.exr").string(),
+        "--frames", "2",        "--stats", (scratch / "s.json").string()};
+    const Outcome done = run(scratch, call);
+    ASSERT_EQ(done.status, 0) << done.err;
+    std::string all;
+    for (const char *const name : {"a-0000.exr", "a-A-0000.png", "a-0001.exr", "a-A-0001.png"})
+        all += (scratch / name).string() + "\n";
+    EXPECT_EQ(done.out, all);
+    EXPECT_NE(read_spectral_exr(scratch / "a-0000.exr").transport,
+              read_spectral_exr(scratch / "a-0001.exr").transport);
+    EXPECT_TRUE(fs::exists(scratch / "s-0001.json"));
+    EXPECT_FALSE(fs::exists(scratch / "a.exr"));
+
+    // What is there is kept, what is missing or older than the scene is rendered again
+    std::vector<std::string> again = call;
+    again.emplace_back("--resume");
+    EXPECT_EQ(run(scratch, again).out, "");
+    const std::string second = read_file(scratch / "a-A-0001.png");
+    fs::remove(scratch / "a-A-0001.png");
+    EXPECT_EQ(run(scratch, again).out, all.substr(all.find((scratch / "a-0001.exr").string())));
+    EXPECT_EQ(read_file(scratch / "a-A-0001.png"), second);
+    fs::last_write_time(scratch / "moved.obj", fs::file_time_type::clock::now());
+    EXPECT_EQ(run(scratch, again).out, all);
+
+    const Outcome more =
+        run(scratch, {"render", scene_file, "-o", (scratch / "b.exr").string(), "--frames", "3"});
+    EXPECT_EQ(more.status, 1);
+    EXPECT_NE(more.err.find("cloth has 2 frames"), std::string::npos) << more.err;
+}
+
 TEST(RenderCommand, PlacesWhatIsWrongInAScene) {
     const Scratch scratch;
     const std::string scene_file = write_scene(scratch, "sample = 3\n");

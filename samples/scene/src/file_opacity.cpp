@@ -67,8 +67,9 @@ Texture coverage_of(const garment::FileOpacity &opacity) {
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const double share =
-                opacity.factor * sample(alpha, (x + 0.5) * alpha.width / size,
-                                        (y + 0.5) * alpha.height / size) / 255;
+                opacity.factor *
+                sample(alpha, (x + 0.5) * alpha.width / size, (y + 0.5) * alpha.height / size) /
+                255;
             const double cloth = !opacity.cutoff ? share : share >= *opacity.cutoff ? 1.0 : 0.0;
             square.data.push_back(static_cast<std::uint8_t>(std::lround(255 * cloth)));
         }
@@ -115,8 +116,8 @@ void add_file_opacities(const garment::MeshFile &mesh, const garment::Options &o
                         double metres_per_uv, Dressing &dressing, Scene &scene) {
     std::map<std::pair<std::size_t, bool>, TextureIndex> textures;
     const auto texture = [&](std::size_t number, bool mirrored) {
-        const auto [at, added] = textures.try_emplace(
-            {number, mirrored}, index_of<TextureTag>(scene.textures.size()));
+        const auto [at, added] =
+            textures.try_emplace({number, mirrored}, index_of<TextureTag>(scene.textures.size()));
         if (added) {
             Texture picture = coverage_of(mesh.opacities[number]);
             scene.textures.push_back(mirrored ? flipped(std::move(picture)) : std::move(picture));
@@ -127,10 +128,9 @@ void add_file_opacities(const garment::MeshFile &mesh, const garment::Options &o
         const std::string &name = mesh.mesh.panel_name[panel];
         const UvAreas areas = uv_areas(mesh.mesh, name);
         const bool mirrored = areas.mirrored > areas.upright;
-        scene.opacities.push_back(
-            {texture(number, mirrored),
-             placement_of(metres_per_uv, grain_of(mesh, options.frames, name), mirrored,
-                          mesh.opacities[number].mirrored_repeat)});
+        scene.opacities.push_back({texture(number, mirrored),
+                                   placement_of(metres_per_uv, grain_of(mesh, options.frames, name),
+                                                mirrored, mesh.opacities[number].mirrored_repeat)});
         std::ranges::find(dressing.panels, panel, &PanelFabric::panel)->opacity =
             index_of<OpacityTag>(scene.opacities.size() - 1);
     }

@@ -58,6 +58,12 @@ void create_folder(const fs::path &folder) {
 
 } // namespace
 
+std::string frame_suffix(std::size_t frame) {
+    constexpr std::size_t kDigits = 4;
+    const std::string digits = std::to_string(frame);
+    return "-" + std::string(digits.size() < kDigits ? kDigits - digits.size() : 0, '0') + digits;
+}
+
 void check_output_folder(const fs::path &folder) {
     const fs::path there = nearest_folder(folder);
     if (const int code = try_writing(there, "tsuya"); code != 0)

@@ -1,5 +1,6 @@
 #include "tsuya/scene/scene_file.h"
 
+#include <algorithm>
 #include <map>
 
 #include "dressing.h"
@@ -8,6 +9,7 @@
 #include "patterns.h"
 #include "scene_meshes.h"
 #include "scene_reader.h"
+#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
@@ -97,6 +99,31 @@ Fabric load_fabric(const FabricEntry &entry, const std::string &scene_file) {
     return fabric;
 }
 
+/// A mesh with as many shapes as there are frames, if it moves.
+SceneMesh read_entry(const MeshEntry &entry, std::size_t frames, const Progress &progress) {
+    SceneMesh mesh{.where = entry.mesh.string(),
+                   .options = entry.options,
+                   .tolerance_px = entry.tolerance_px,
+                   .translate = entry.translate};
+    const bool moves = frames > 1 && (entry.morph_targets || !entry.frames.empty());
+    if (!moves) {
+        mesh.file = garment::read_mesh(entry.mesh, progress);
+        return mesh;
+    }
+    const std::size_t further = std::min(entry.frames.size(), frames - 1);
+    garment::GarmentFrames read = garment::read_frames(
+        entry.mesh,
+        {entry.frames.begin(), entry.frames.begin() + static_cast<std::ptrdiff_t>(further)},
+        entry.morph_targets, progress);
+    if (read.further.size() + 1 < frames)
+        throw Error({entry.name + " has " + detail::counted(read.further.size() + 1, "frame"),
+                     entry.where, "expected " + std::to_string(frames) + " at least"});
+    read.further.resize(frames - 1);
+    mesh.file = std::move(read.first);
+    mesh.further = std::move(read.further);
+    return mesh;
+}
+
 } // namespace
 
 SceneFile read_scene_file(const std::filesystem::path &path, const Progress &progress) {
@@ -108,63 +135,116 @@ SceneFile read_scene_file(const std::filesystem::path &path, const Progress &pro
     return file;
 }
 
-BuiltScene build_scene(const SceneFile &file, const Progress &progress) {
-    BuiltScene built;
-    Scene &scene = built.scene;
-    for (const FabricEntry &entry : file.fabrics)
-        scene.fabrics.push_back(load_fabric(entry, file.path.string()));
-    add_pictures(file.patterns, file.opacities, scene);
-    std::vector<DressingFabric> fabrics;
-    for (std::size_t i = 0; i < file.fabrics.size(); ++i)
-        fabrics.push_back({.needs_frames = needs_frames(scene.fabrics[i]),
-                           .print = index_of<PrintTag>(file.fabrics[i].pattern),
-                           .opacity = index_of<OpacityTag>(file.fabrics[i].opacity)});
-    SceneMeshes meshes(progress);
-    for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
-        for (const MeshEntry &entry : *entries) {
-            if (!entry.visible)
-                continue;
-            built.reports.push_back({entry.mesh});
-            SceneMesh mesh{.file = garment::read_mesh(entry.mesh, progress),
-                           .where = entry.mesh.string(),
-                           .options = entry.options,
-                           .tolerance_px = entry.tolerance_px,
-                           .translate = entry.translate};
-            const FabricEntry &fabric = file.fabrics[entry.fabric];
-            const auto pattern = entry.pattern ? entry.pattern : fabric.pattern;
-            const auto opacity = entry.opacity ? entry.opacity : fabric.opacity;
-            Dressing dressing =
-                dress({.fabric = index_of<FabricTag>(entry.fabric),
-                       .back = index_of<FabricTag>(entry.back),
-                       .print = index_of<PrintTag>(pattern),
-                       .back_print = entry.back ? fabrics[*entry.back].print : std::nullopt,
-                       .opacity = index_of<OpacityTag>(opacity)},
-                      entry.panels, fabrics, mesh.file, mesh.options);
-            Surface surface = meshes.add(std::move(mesh));
-            const std::size_t m = built.reports.size() - 1;
-            add_file_opacities(meshes.file(m), meshes.options(m), meshes.report(m).metres_per_uv,
-                               dressing, scene);
-            add_object(scene, entry.name, std::move(surface), std::move(dressing));
-        }
-    if (file.backdrop) {
+struct SceneFrames::State {
+    SceneMeshes meshes;
+    std::vector<std::size_t> moving{}; ///< which of them
+};
+
+SceneFrames::SceneFrames() = default;
+SceneFrames::~SceneFrames() = default;
+SceneFrames::SceneFrames(SceneFrames &&) noexcept = default;
+SceneFrames &SceneFrames::operator=(SceneFrames &&) noexcept = default;
+
+void SceneFrames::show(std::size_t frame, Scene &scene) {
+    if (state_)
+        for (const std::size_t m : state_->moving)
+            scene.surfaces[m] = state_->meshes.frame(m, frame);
+}
+
+/// Puts the parts of a scene together, in this order.
+struct SceneBuilder {
+    const SceneFile &file;
+    const Progress &progress;
+    std::size_t frames;
+    SceneMeshes meshes{progress};
+    BuiltScene built{};
+    std::vector<DressingFabric> fabrics{};
+
+    void add_fabrics() {
+        Scene &scene = built.scene;
+        for (const FabricEntry &entry : file.fabrics)
+            scene.fabrics.push_back(load_fabric(entry, file.path.string()));
+        add_pictures(file.patterns, file.opacities, scene);
+        for (std::size_t i = 0; i < file.fabrics.size(); ++i)
+            fabrics.push_back({.needs_frames = needs_frames(scene.fabrics[i]),
+                               .print = index_of<PrintTag>(file.fabrics[i].pattern),
+                               .opacity = index_of<OpacityTag>(file.fabrics[i].opacity)});
+    }
+
+    void add_mesh(const MeshEntry &entry) {
+        built.reports.push_back({entry.mesh});
+        SceneMesh mesh = read_entry(entry, frames, progress);
+        const FabricEntry &fabric = file.fabrics[entry.fabric];
+        Dressing dressing =
+            dress({.fabric = index_of<FabricTag>(entry.fabric),
+                   .back = index_of<FabricTag>(entry.back),
+                   .print = index_of<PrintTag>(entry.pattern ? entry.pattern : fabric.pattern),
+                   .back_print = entry.back ? fabrics[*entry.back].print : std::nullopt,
+                   .opacity = index_of<OpacityTag>(entry.opacity ? entry.opacity : fabric.opacity)},
+                  entry.panels, fabrics, mesh.file, mesh.options);
+        Surface surface = meshes.add(std::move(mesh));
+        const std::size_t m = meshes.count() - 1;
+        add_file_opacities(meshes.file(m), meshes.options(m), meshes.report(m).metres_per_uv,
+                           dressing, built.scene);
+        add_object(built.scene, entry.name, std::move(surface), std::move(dressing));
+    }
+
+    void add_backdrop() {
+        if (!file.backdrop)
+            return;
+        Scene &scene = built.scene;
         add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape),
                    {.fabric = index_of<FabricTag>(scene.fabrics.size())});
         scene.fabrics.push_back(
             {.name = "backdrop", .colours = {.dye = file.backdrop->reflectance}});
     }
-    scene.light_groups = file.light_groups;
-    scene.rectangles = file.lights;
-    scene.environment = file.environment;
-    scene.camera = file.camera ? *file.camera : frame_points(meshes.points(), file.framing);
-    try {
-        check_scene(scene);
-    } catch (const Error &error) {
-        throw in_words_of(file, error);
+
+    void add_camera_and_lights() {
+        Scene &scene = built.scene;
+        scene.light_groups = file.light_groups;
+        scene.rectangles = file.lights;
+        scene.environment = file.environment;
+        scene.camera = file.camera ? *file.camera : frame_points(meshes.points(), file.framing);
     }
-    meshes.refine(scene);
-    for (std::size_t m = 0; m < built.reports.size(); ++m)
-        built.reports[m].report = meshes.report(m);
-    return built;
+
+    void check_and_refine() {
+        try {
+            check_scene(built.scene);
+        } catch (const Error &error) {
+            throw in_words_of(file, error);
+        }
+        meshes.refine(built.scene);
+        for (std::size_t m = 0; m < built.reports.size(); ++m)
+            built.reports[m].report = meshes.report(m);
+    }
+
+    void keep_frames() {
+        std::vector<std::size_t> moving;
+        for (std::size_t m = 0; m < meshes.count(); ++m)
+            if (meshes.frame_count(m) > 1)
+                moving.push_back(m);
+        if (frames > 1 && moving.empty())
+            throw Error({"nothing moves in the scene", file.path.string(),
+                         "expected frames or morph_targets of a garment or body"});
+        built.frames.count_ = frames;
+        built.frames.state_ = std::make_unique<SceneFrames::State>(
+            SceneFrames::State{std::move(meshes), std::move(moving)});
+    }
+};
+
+BuiltScene build_scene(const SceneFile &file, const Progress &progress, std::size_t frames) {
+    SceneBuilder builder{file, progress, frames};
+    builder.add_fabrics();
+    for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
+        for (const MeshEntry &entry : *entries)
+            if (entry.visible)
+                builder.add_mesh(entry);
+    builder.add_backdrop();
+    builder.add_camera_and_lights();
+    builder.check_and_refine();
+    if (frames > 1)
+        builder.keep_frames();
+    return std::move(builder.built);
 }
 
 } // namespace tsuya::scene

@@ -15,9 +15,11 @@ constexpr int kFramingLevel = 1;
 Surface SceneMeshes::add(SceneMesh mesh) {
     if (mesh.tolerance_px)
         mesh.options.subdivide.level = kFramingLevel;
-    garment::LoadedGarment loaded = load(mesh);
-    add_points(loaded.surface.position);
     meshes_.push_back(std::move(mesh));
+    moving_.emplace_back();
+    garment::LoadedGarment loaded = load(meshes_.size() - 1);
+    add_points(loaded.surface.position);
+    add_further_points(meshes_.back());
     reports_.push_back(std::move(loaded.report));
     return std::move(loaded.surface);
 }
@@ -26,23 +28,50 @@ void SceneMeshes::add_points(const std::vector<glm::dvec3> &points) {
     points_.insert(points_.end(), points.begin(), points.end());
 }
 
+void SceneMeshes::add_further_points(const SceneMesh &mesh) {
+    const garment::PolygonMesh &faces = mesh.file.mesh;
+    std::vector<bool> used(faces.position.size());
+    for (const std::uint32_t v : faces.corner_position)
+        used[v] = true;
+    for (const std::vector<glm::dvec3> &shape : mesh.further)
+        for (std::size_t v = 0; v < shape.size(); ++v)
+            if (used[v])
+                points_.push_back(garment::in_metres(mesh.options, shape[v]) + mesh.translate);
+}
+
 void SceneMeshes::refine(Scene &scene) {
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         SceneMesh &mesh = meshes_[m];
         if (!mesh.tolerance_px)
             continue;
         mesh.options.subdivide.view = view_of(scene, points_, *mesh.tolerance_px, mesh.translate);
-        garment::LoadedGarment loaded = load(mesh);
+        garment::LoadedGarment loaded = load(m);
         scene.surfaces[m] = std::move(loaded.surface);
         reports_[m] = std::move(loaded.report);
     }
 }
 
-garment::LoadedGarment SceneMeshes::load(const SceneMesh &mesh) const {
-    garment::LoadedGarment loaded = garment::load(mesh.file, mesh.options, mesh.where, progress_);
+garment::LoadedGarment SceneMeshes::load(std::size_t m) {
+    const SceneMesh &mesh = meshes_[m];
+    garment::LoadedGarment loaded;
+    const bool last = !mesh.tolerance_px || mesh.options.subdivide.view;
+    if (mesh.further.empty() || !last) {
+        loaded = garment::load(mesh.file, mesh.options, mesh.where, progress_);
+    } else {
+        moving_[m].emplace(mesh.file, mesh.options, mesh.where, progress_);
+        loaded = moving_[m]->first();
+    }
     for (glm::dvec3 &p : loaded.surface.position)
         p += mesh.translate;
     return loaded;
+}
+
+Surface SceneMeshes::frame(std::size_t m, std::size_t frame) {
+    Surface surface =
+        frame == 0 ? moving_[m]->first().surface : moving_[m]->frame(meshes_[m].further[frame - 1]);
+    for (glm::dvec3 &p : surface.position)
+        p += meshes_[m].translate;
+    return surface;
 }
 
 } // namespace tsuya::scene

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tsuya/garment/animation.h"
 #include "tsuya/garment/garment.h"
 #include "tsuya/sdk/scene.h"
 
@@ -15,12 +16,14 @@ struct SceneMesh {
     garment::MeshFile file{};
     std::string where{}; // names it in errors
     garment::Options options{};
-    std::optional<double> tolerance_px{}; // of the scene's camera; in place of the level
-    glm::dvec3 translate{0.0};            // metres
+    std::optional<double> tolerance_px{};           // of the scene's camera; in place of the level
+    glm::dvec3 translate{0.0};                      // metres
+    std::vector<std::vector<glm::dvec3>> further{}; // shapes, in units of the file
 };
 
-// Loads meshes twice where pixels say how fine they are: first for a camera to be framed by, then
-// as that camera and the lights need them. The scene's first surfaces are these, in their order.
+// A mesh with further shapes is framed with all of them. Loads meshes twice where pixels say how
+// fine they are: first for a camera to be framed by, then as that camera and the lights need them.
+// The scene's first surfaces are these, in their order.
 class SceneMeshes {
   public:
     explicit SceneMeshes(const Progress &progress) : progress_(progress) {}
@@ -34,17 +37,26 @@ class SceneMeshes {
     // Loads meshes with a tolerance again, for the camera and the lights of the scene.
     void refine(Scene &scene);
 
+    // Shapes of mesh `m` with the one it was loaded in, which is frame 0.
+    std::size_t frame_count(std::size_t m) const { return 1 + meshes_[m].further.size(); }
+    // The surface of a frame of a mesh that has several. Throws as AnimatedGarment::frame.
+    Surface frame(std::size_t m, std::size_t frame);
+
+    std::size_t count() const { return meshes_.size(); }
     // Options and report of mesh `m`, as it was loaded last.
     const garment::Options &options(std::size_t m) const { return meshes_[m].options; }
     const garment::Report &report(std::size_t m) const { return reports_[m]; }
     const garment::MeshFile &file(std::size_t m) const { return meshes_[m].file; }
 
   private:
-    garment::LoadedGarment load(const SceneMesh &mesh) const;
+    // As it is needed last, with what its frames need.
+    garment::LoadedGarment load(std::size_t m);
+    void add_further_points(const SceneMesh &mesh);
 
     Progress progress_;
     std::vector<SceneMesh> meshes_;
     std::vector<garment::Report> reports_;
+    std::vector<std::optional<garment::AnimatedGarment>> moving_; // as loaded last
     std::vector<glm::dvec3> points_;
 };
 

@@ -7,11 +7,18 @@
 
 #include "tsuya/scene/scene_file.h"
 #include "tsuya/sdk/document.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
 
 // Of a fabric without a file and a dye.
 inline constexpr double kPlainReflectance = 0.5;
+
+inline constexpr double kLargest = 1e6;   // metres, radiance, ...
+inline constexpr double kSmallest = 1e-6; // of what has to be above 0
+
+// Member functions stand in scene_reader.cpp, fabrics and pictures in cloth_sections.cpp, meshes in
+// mesh_sections.cpp.
 
 class SceneReader {
   public:
@@ -27,6 +34,8 @@ class SceneReader {
     void read_framing(const Section &camera);
     void read_fabrics();
     void read_meshes(const char *kind, bool yarn, std::vector<MeshEntry> &entries);
+    // Further shapes of a mesh.
+    void read_frames(const Section &section, MeshEntry &entry);
     void read_panels(const Section &panels, bool yarn, MeshEntry &entry);
     // Index of the fabric that a key names; empty where it names none.
     std::optional<std::size_t> fabric_named(const Section &section, const char *key);
@@ -57,7 +66,13 @@ class SceneReader {
     std::filesystem::path existing_file(const Section &section, std::string_view key,
                                         bool required);
     // Runs `work`; an Error becomes a problem at the key.
-    template <class Work> void note(const Section &section, std::string_view key, Work &&work);
+    template <class Work> void note(const Section &section, std::string_view key, Work &&work) {
+        try {
+            work();
+        } catch (const Error &error) {
+            section.problem(key, error);
+        }
+    }
 
     Section root_;
     std::filesystem::path folder_;

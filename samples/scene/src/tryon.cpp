@@ -164,11 +164,6 @@ void keep_coverage(SpectralImage &image) {
         }
 }
 
-std::string number_of(std::size_t frame) {
-    const std::string digits = std::to_string(frame);
-    return "-" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
-}
-
 constexpr const char *kSheet = "sheet.png";
 
 std::string transport_name(const std::string &dye, const std::string &number) {
@@ -180,8 +175,8 @@ std::string picture_name(const std::string &dye, const std::string &lamp,
     return dye + "-" + lamp + number + ".png";
 }
 
-/// The number of a frame at the end of a file's name, as number_of writes it; empty where there is
-/// none.
+/// The number of a frame at the end of a file's name, as frame_suffix writes it; empty where there
+/// is none.
 std::string number_in(const fs::path &file) {
     const std::string stem = file.stem().string();
     const std::size_t dash = stem.find_last_not_of("0123456789");
@@ -209,24 +204,8 @@ void write_pictures(const SpectralImage &image, const std::string &name, const s
 /// A try-on with what further frames of it need.
 struct Stage {
     TryOnScene shown{};
-    SceneMeshes meshes;                             ///< the garment first
-    std::vector<std::vector<glm::dvec3>> further{}; ///< shapes of the garment, in units of its file
+    SceneMeshes meshes; ///< the garment first
 };
-
-/// Places of all vertices of faces in all further frames, metres.
-std::vector<glm::dvec3> frame_points_of(const garment::PolygonMesh &mesh,
-                                        const std::vector<std::vector<glm::dvec3>> &further,
-                                        const garment::Options &options) {
-    std::vector<bool> used(mesh.position.size());
-    for (const std::uint32_t v : mesh.corner_position)
-        used[v] = true;
-    std::vector<glm::dvec3> points;
-    for (const std::vector<glm::dvec3> &shape : further)
-        for (std::size_t v = 0; v < shape.size(); ++v)
-            if (used[v])
-                points.push_back(garment::in_metres(options, shape[v]));
-    return points;
-}
 
 Stage make_stage(const TryOn &job, const Progress &progress) {
     Stage stage{.meshes = SceneMeshes(progress)};
@@ -246,7 +225,6 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
 
     garment::GarmentFrames frames =
         garment::read_frames(job.garment, job.frames, job.morph_targets, progress);
-    stage.further = std::move(frames.further);
     if (options.want_frames && !job.invented_grain && frames.first.mesh.uv.empty())
         throw Error(
             {"the mesh has no UV, and '" + cloths.fabrics.front().name + "' has a warp direction",
@@ -266,11 +244,11 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     scene.surfaces.push_back(stage.meshes.add({.file = std::move(frames.first),
                                                .where = job.garment.string(),
                                                .options = options,
-                                               .tolerance_px = job.tolerance_px}));
+                                               .tolerance_px = job.tolerance_px,
+                                               .further = std::move(frames.further)}));
     add_file_opacities(stage.meshes.file(0), stage.meshes.options(0),
                        stage.meshes.report(0).metres_per_uv, dressing, scene);
     scene.objects.push_back(std::move(dressing).object("garment", {0}));
-    stage.meshes.add_points(frame_points_of(stage.meshes.file(0).mesh, stage.further, options));
     if (!job.body.empty())
         add_object(scene, "body",
                    stage.meshes.add({.file = garment::read_mesh(job.body, progress),
@@ -358,15 +336,13 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     Scene &scene = stage.shown.scene;
     if (has_own_dye(job, scene.fabrics.front()))
         dyes = {{own_dye_name(job), std::nullopt}};
-    std::optional<garment::AnimatedGarment> show;
-    if (!stage.further.empty())
-        show.emplace(stage.meshes.file(0), stage.meshes.options(0), job.garment.string(), progress);
+    const std::size_t shapes = stage.meshes.frame_count(0);
     const OutputFolder folder(job.output);
 
     TryOnResult result{.report = std::move(stage.shown.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
     KeptMaterials kept;
-    const std::size_t shapes = 1 + stage.further.size(), count = shapes * dyes.size();
+    const std::size_t count = shapes * dyes.size();
     for (std::size_t i = 0; i < count && !result.interrupted; ++i) {
         const std::size_t frame = i / dyes.size();
         const NamedDye &dye = dyes[i % dyes.size()];
@@ -376,17 +352,17 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
                      (static_cast<double>(i) + fraction) / static_cast<double>(count));
         };
         if (frame > 0 && i % dyes.size() == 0)
-            scene.surfaces[0] = show->frame(stage.further[frame - 1]);
+            scene.surfaces[0] = stage.meshes.frame(0, frame);
         if (dye.spectrum)
             scene.fabrics[0].colours.dye_all(*dye.spectrum);
         const RenderResult rendered = render_try_on(scene, job.render, part, &kept);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;
         add_warnings(rendered, result);
-        write_pictures(rendered.image, dye.name, show ? number_of(frame) : "", lamps, job, sheet,
-                       result);
+        write_pictures(rendered.image, dye.name, shapes > 1 ? frame_suffix(frame) : "", lamps, job,
+                       sheet, result);
     }
-    if (!result.interrupted && !show) {
+    if (!result.interrupted && shapes == 1) {
         result.files.push_back(job.output / kSheet);
         write_png(result.files.back(), draw_sheet(sheet));
     }

@@ -20,6 +20,9 @@ void check_output_file(const std::filesystem::path &file,
 void prepare_output_file(const std::filesystem::path &file,
                          const std::vector<std::string> &extensions = {});
 
+/// What the files of a frame end with, before their extension: `-0000`, `-0001`, ...
+std::string frame_suffix(std::size_t frame);
+
 /// Throws Error unless results can be written into a folder or, where it is missing, it can be
 /// created.
 void check_output_folder(const std::filesystem::path &folder);

@@ -9,6 +9,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,8 @@ struct MeshEntry {
     std::optional<std::size_t> pattern{}; ///< into SceneFile::patterns, in place of the fabric's
     std::optional<std::size_t> opacity{}; ///< into SceneFile::opacities, in place of the fabric's
     std::vector<PanelEntry> panels{};     ///< `[garments.NAME.panels."PATTERN"]`
+    bool morph_targets = false;           ///< of the mesh (glTF): frames before `frames`
+    std::vector<std::filesystem::path> frames{}; ///< see garment::read_frames; the mesh is frame 0
     garment::Options options{};
     std::optional<double> tolerance_px{}; ///< of the scene's camera; in place of the level
     glm::dvec3 translate{0, 0, 0};        ///< metres
@@ -100,16 +103,42 @@ struct MeshReport {
     garment::Report report{};
 };
 
+/// The shapes of what moves in a scene. Repairs, seams, tessellation and dressing are those of
+/// frame 0, and what stands still is not touched.
+class SceneFrames {
+  public:
+    SceneFrames();
+    ~SceneFrames();
+    SceneFrames(SceneFrames &&) noexcept; ///< the frames moved from may only be assigned to
+    SceneFrames &operator=(SceneFrames &&) noexcept; ///< as the move constructor
+
+    /// Number of frames, 1 or more.
+    std::size_t count() const { return count_; }
+    /// Gives the scene's moving surfaces the shapes of a frame. Throws Error as
+    /// garment::AnimatedGarment::frame.
+    void show(std::size_t frame, Scene &scene);
+
+  private:
+    friend struct SceneBuilder;
+    struct State;
+    std::unique_ptr<State> state_;
+    std::size_t count_ = 1;
+};
+
 /// A scene file with its meshes and fabrics loaded.
 struct BuiltScene {
     Scene scene{};
     std::vector<MeshReport> reports{}; ///< one a visible mesh
+    SceneFrames frames{};              ///< the scene is in frame 0
 };
 
 /// Loads the meshes and puts the scene together. A camera that frames by itself frames meshes with
 /// `tolerance_px` as level 1 divides them. Throws Error as garment::load, read_fabric and
-/// check_scene, whose objects and lights are named as in the file; Interrupted where `progress`
-/// says stop.
-BuiltScene build_scene(const SceneFile &file, const Progress &progress = {});
+/// check_scene, whose objects and lights are named as in the file, and where the scene has fewer
+/// frames; Interrupted where `progress` says stop.
+/// \param frames that are wanted, 1 or more: with 2 or more the camera frames all of them, and
+/// every mesh that states frames has as many
+BuiltScene build_scene(const SceneFile &file, const Progress &progress = {},
+                       std::size_t frames = 1);
 
 } // namespace tsuya::scene
