@@ -23,4 +23,7 @@ Panels panels_of_islands(const PolygonMesh &mesh, const SetNumbers &islands);
 /// Makes these the panels of the mesh.
 void name_islands(PolygonMesh &mesh, const SetNumbers &islands);
 
+/// Connected parts of faces that share vertices: of each vertex; any number for one without a face.
+SetNumbers find_parts(const PolygonMesh &mesh);
+
 } // namespace tsuya::garment

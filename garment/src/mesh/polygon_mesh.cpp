@@ -110,6 +110,23 @@ bool has_uv(const PolygonMesh &mesh, std::size_t f) {
     return true;
 }
 
+SetNumbers find_parts(const PolygonMesh &mesh) {
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    DisjointSets sets(mesh.position.size());
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        for (std::uint32_t c = mesh.face_offset[f] + 1; c < mesh.face_offset[f + 1]; ++c)
+            sets.unite(mesh.corner_position[mesh.face_offset[f]], mesh.corner_position[c]);
+    SetNumbers parts{.of = std::vector<std::uint32_t>(mesh.position.size(), kNone)};
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        std::uint32_t &number = parts.of[sets.find(mesh.corner_position[mesh.face_offset[f]])];
+        if (number == kNone)
+            number = parts.count++;
+    }
+    for (std::uint32_t v = 0; v < parts.of.size(); ++v)
+        parts.of[v] = parts.of[sets.find(v)];
+    return parts;
+}
+
 SetNumbers find_islands(const PolygonMesh &mesh, const EdgeTable &edges) {
     // Union of faces over edges that have the same UV at both ends on both sides.
     DisjointSets islands(mesh.face_count());

@@ -71,27 +71,4 @@ std::vector<BoundaryLoop> measure_loops(const PolygonMesh &mesh, const HalfEdgeM
     return loops;
 }
 
-std::size_t count_parts(const HalfEdgeMesh &half_edges) {
-    std::size_t parts = 0;
-    std::vector<bool> seen(half_edges.n_faces(), false);
-    std::vector<HalfEdgeMesh::FaceHandle> open;
-    for (const auto seed : half_edges.faces()) {
-        if (seen[static_cast<std::size_t>(seed.idx())])
-            continue;
-        ++parts;
-        seen[static_cast<std::size_t>(seed.idx())] = true;
-        open.push_back(seed);
-        while (!open.empty()) {
-            const auto face = open.back();
-            open.pop_back();
-            for (const auto other : half_edges.ff_range(face))
-                if (!seen[static_cast<std::size_t>(other.idx())]) {
-                    seen[static_cast<std::size_t>(other.idx())] = true;
-                    open.push_back(other);
-                }
-        }
-    }
-    return parts;
-}
-
 } // namespace tsuya::garment

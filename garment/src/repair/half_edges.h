@@ -27,7 +27,4 @@ std::uint32_t start_of(const HalfEdgeMesh &half_edges, HalfEdgeMesh::HalfedgeHan
 /// Length and place of each loop, longest first.
 std::vector<BoundaryLoop> measure_loops(const PolygonMesh &mesh, const HalfEdgeMesh &half_edges);
 
-/// Connected parts.
-std::size_t count_parts(const HalfEdgeMesh &half_edges);
-
 } // namespace tsuya::garment

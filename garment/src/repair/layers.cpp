@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesh/disjoint_sets.h"
 #include "mesh/distance.h"
+#include "mesh/islands.h"
 #include "mesh/stop.h"
 #include "repair/mesh_repair.h"
 
@@ -59,11 +59,7 @@ bool lie_on_each_other(const PolygonMesh &mesh, std::vector<std::uint32_t> faces
 
 /// Asks each vertex of the boundary how its rim lies to the rims of other parts that pass it.
 void MeshRepair::find_layers(double tolerance) {
-    DisjointSets sets(mesh_.position.size());
-    for (std::size_t f = 0; f < mesh_.face_count(); ++f)
-        for (std::uint32_t c = mesh_.face_offset[f]; c < mesh_.face_offset[f + 1]; ++c)
-            sets.unite(mesh_.corner_position[mesh_.face_offset[f]], mesh_.corner_position[c]);
-    const SetNumbers parts = sets.number();
+    const SetNumbers parts = find_parts(mesh_);
     const OpenSides &open = open_sides();
     LayerVotes votes;
     std::size_t turn = 0;

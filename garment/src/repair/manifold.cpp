@@ -18,10 +18,10 @@ void flip_face(PolygonMesh &mesh, std::size_t f) {
     std::reverse(mesh.corner_uv.begin() + first, mesh.corner_uv.begin() + last);
 }
 
-/// Faces by a hash of their vertices, as lists, to find duplicates.
-class FaceHash {
+/// Faces in lists by their smallest vertex, to find duplicates: neighbours are near in memory.
+class FaceLists {
   public:
-    explicit FaceHash(std::size_t faces) : head_(std::bit_ceil(2 * faces + 1), kNone) {
+    FaceLists(std::size_t vertices, std::size_t faces) : head_(vertices, kNone) {
         entries_.reserve(faces);
     }
 
@@ -29,15 +29,14 @@ class FaceHash {
     /// added as the next face. \param sorted vertices, ascending
     template <typename Same>
     bool has_or_add(const std::vector<std::uint32_t> &sorted, Same &&same) {
-        std::uint64_t hash = 0;
+        std::uint32_t hash = 0;
         for (const std::uint32_t v : sorted)
-            hash = std::rotl(hash ^ v, 23) * 0x9e3779b97f4a7c15u;
-        const auto low = static_cast<std::uint32_t>(hash);
-        std::uint32_t &first = head_[static_cast<std::size_t>(hash >> 32) & (head_.size() - 1)];
+            hash = std::rotl(hash ^ v, 11) * 0x9e3779b9u;
+        std::uint32_t &first = head_[sorted.front()];
         for (std::uint32_t g = first; g != kNone; g = entries_[g].next)
-            if (entries_[g].hash == low && same(g))
+            if (entries_[g].hash == hash && same(g))
                 return true;
-        entries_.push_back({first, low});
+        entries_.push_back({first, hash});
         first = static_cast<std::uint32_t>(entries_.size() - 1);
         return false;
     }
@@ -75,7 +74,7 @@ void MeshRepair::drop_faces() {
     ManifoldReport &found = manifold();
     std::vector<std::uint32_t> vertices, sorted;
     std::vector<std::int32_t> uvs;
-    FaceHash known(mesh_.face_count());
+    FaceLists known(mesh_.position.size(), mesh_.face_count());
     const auto same_vertices = [&](std::uint32_t f) {
         if (mesh_.face_size(f) != sorted.size())
             return false;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "mesh/distance.h"
 #include "mesh/islands.h"
@@ -50,23 +51,30 @@ FaceMeasure measure_face(const PolygonMesh &mesh, std::size_t f) {
 
 /// Percentiles of values weighted by area.
 Percentiles percentiles(std::vector<std::pair<double, double>> value_and_area) {
-    Percentiles result;
-    std::sort(value_and_area.begin(), value_and_area.end());
-    double total = 0.0;
-    for (const auto &[value, area] : value_and_area)
-        total += area;
-    const auto at = [&](double share) {
-        double sum = 0.0;
-        for (const auto &[value, area] : value_and_area) {
-            sum += area;
-            if (sum >= share * total)
-                return value;
-        }
-        return 0.0;
+    if (value_and_area.empty())
+        return {};
+    const auto sum = [](auto first, auto last) {
+        return std::accumulate(first, last, 0.0,
+                               [](double area, const auto &face) { return area + face.second; });
     };
-    if (total > 0.0)
-        result = {at(0.05), at(0.5), at(0.95)};
-    return result;
+    const double total = sum(value_and_area.begin(), value_and_area.end());
+    // The half that has the share is halved again.
+    const auto at = [&](double share) {
+        auto first = value_and_area.begin(), last = value_and_area.end();
+        for (double wanted = share * total; last - first > 1;) {
+            const auto middle = first + (last - first) / 2;
+            std::nth_element(first, middle, last);
+            const double area = sum(first, middle);
+            if (area >= wanted) {
+                last = middle;
+            } else {
+                wanted -= area;
+                first = middle;
+            }
+        }
+        return first->first;
+    };
+    return {at(0.05), at(0.5), at(0.95)};
 }
 
 /// True where the UVs of the face enclose an area.
@@ -154,7 +162,7 @@ void MeshRepair::measure_file() {
 }
 
 void MeshRepair::measure_joined() {
-    report_.parts = count_parts(half_edges());
+    report_.parts = find_parts(mesh_).count;
     report_.openings = measure_loops(mesh_, half_edges());
 }
 

@@ -55,7 +55,7 @@ void MeshRepair::name_panels() {
 
 void MeshRepair::measure_panels() {
     check_valence(mesh_);
-    report_.parts_before = count_parts(half_edges());
+    report_.parts_before = find_parts(mesh_).count;
     report_.loops_before = boundary_runs(half_edges()).size();
 }
 
