@@ -52,9 +52,10 @@ struct AnimatedGarment::State {
 
 AnimatedGarment::AnimatedGarment(const MeshFile &file, const Options &options,
                                  const std::string &where, const Progress &progress) {
-    state_ = std::make_unique<State>(State{options, where, file.mesh.position.size(),
-                                           load_steps(file, options, where, progress)});
-    state_->steps.subdivider.expect_frames(progress);
+    state_ =
+        std::make_unique<State>(State{options, where, file.mesh.position.size(),
+                                      load_steps(file, options, where, Further::frames, progress)});
+    state_->steps.subdivider->expect_frames(progress);
 }
 
 AnimatedGarment::~AnimatedGarment() = default;
@@ -72,7 +73,7 @@ Surface AnimatedGarment::frame(const std::vector<glm::dvec3> &positions) {
     for (glm::dvec3 &p : metres)
         p = in_metres(state_->options, p);
     LimitMesh limit =
-        state_->steps.subdivider.evaluate(state_->steps.recipe.apply(std::move(metres)));
+        state_->steps.subdivider->evaluate(state_->steps.recipe.apply(std::move(metres)));
     FrameReport report;
     return add_frames(std::move(limit), state_->steps.frames, report, state_->where);
 }

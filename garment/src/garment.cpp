@@ -107,14 +107,12 @@ glm::dvec3 in_metres(const Options &options, const glm::dvec3 &point) {
 
 namespace {
 
-LoadSteps run_steps(const PolygonMesh &mesh, const Options &options,
-                    const std::vector<Finding> &of_file, const std::string &where,
-                    const Progress &progress) {
+LoadSteps run_steps(PolygonMesh mesh, const Options &options, const std::vector<Finding> &of_file,
+                    const std::string &where, Further further, const Progress &progress) {
     check_indices(mesh, where);
-    PolygonMesh metres = mesh;
-    for (glm::dvec3 &p : metres.position)
+    for (glm::dvec3 &p : mesh.position)
         p = in_metres(options, p);
-    Prepared prepared = MeshRepair(std::move(metres), options.seams, options.want_frames,
+    Prepared prepared = MeshRepair(std::move(mesh), options.seams, options.want_frames,
                                    options.frames.plain, progress)
                             .run();
     if (options.want_frames) {
@@ -123,13 +121,17 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options,
         prepared.mesh.uv.clear();
         std::fill(prepared.mesh.corner_uv.begin(), prepared.mesh.corner_uv.end(), -1);
     }
-    LoadSteps steps{.subdivider = Subdivider(std::move(prepared.mesh), options.subdivide, progress),
-                    .recipe = std::move(prepared.positions),
-                    .frames = options.frames};
+    LoadSteps steps{.recipe = std::move(prepared.positions), .frames = options.frames};
     steps.frames.metres_per_uv = prepared.report.metres_per_uv;
     if (!options.want_frames)
         steps.frames.invented_grain.reset();
-    LimitMesh limit = steps.subdivider.evaluate(progress);
+    LimitMesh limit;
+    if (further == Further::frames) {
+        steps.subdivider.emplace(std::move(prepared.mesh), options.subdivide, progress);
+        limit = steps.subdivider->evaluate(progress);
+    } else {
+        limit = subdivide(std::move(prepared.mesh), options.subdivide, progress);
+    }
     const std::size_t repaired_normals = limit.repaired_normals;
     FrameReport frame_report;
     LoadedGarment &out = steps.garment;
@@ -152,35 +154,30 @@ LoadSteps run_steps(const PolygonMesh &mesh, const Options &options,
 
 } // namespace
 
-LoadSteps load_steps(const PolygonMesh &mesh, const Options &options,
-                     const std::vector<Finding> &of_file, const std::string &where,
-                     const Progress &progress) {
+LoadSteps load_steps(MeshFile file, const Options &options, const std::string &where,
+                     Further further, const Progress &progress) {
     check_options(options, where);
+    Options with_hints = options;
+    std::vector<Finding> findings = use_hints(file.hints, with_hints.frames);
+    findings.insert(findings.begin(), file.findings.begin(), file.findings.end());
     try {
-        return run_steps(mesh, options, of_file, where, progress);
+        LoadSteps steps =
+            run_steps(std::move(file.mesh), with_hints, findings, where, further, progress);
+        steps.garment.hints = std::move(file.hints);
+        return steps;
     } catch (const Error &error) {
         throw placed(error, where);
     }
 }
 
-LoadSteps load_steps(const MeshFile &file, const Options &options, const std::string &where,
-                     const Progress &progress) {
-    Options with_hints = options;
-    std::vector<Finding> findings = use_hints(file.hints, with_hints.frames);
-    findings.insert(findings.begin(), file.findings.begin(), file.findings.end());
-    LoadSteps steps = load_steps(file.mesh, with_hints, findings, where, progress);
-    steps.garment.hints = file.hints;
-    return steps;
+LoadedGarment load(PolygonMesh mesh, const Options &options, const std::string &where,
+                   const Progress &progress) {
+    return load(MeshFile{.mesh = std::move(mesh)}, options, where, progress);
 }
 
-LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
+LoadedGarment load(MeshFile file, const Options &options, const std::string &where,
                    const Progress &progress) {
-    return load_steps(mesh, options, {}, where, progress).garment;
-}
-
-LoadedGarment load(const MeshFile &file, const Options &options, const std::string &where,
-                   const Progress &progress) {
-    return load_steps(file, options, where, progress).garment;
+    return load_steps(std::move(file), options, where, Further::none, progress).garment;
 }
 
 LoadedGarment load(const std::filesystem::path &path, const Options &options,

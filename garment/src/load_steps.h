@@ -2,6 +2,8 @@
 /// \file
 /// Loading a garment, with what further frames of it need.
 
+#include <optional>
+
 #include "tsuya/garment/garment.h"
 #include "tsuya/garment/position_recipe.h"
 
@@ -9,18 +11,16 @@ namespace tsuya::garment {
 
 struct LoadSteps {
     LoadedGarment garment{};
-    Subdivider subdivider;
+    std::optional<Subdivider> subdivider{}; ///< where further frames were asked for
     PositionRecipe recipe{};
     FrameOptions frames{}; ///< as they were used
 };
 
-/// Everything that load does. `of_file` are findings of the reader. Throws as load.
-LoadSteps load_steps(const PolygonMesh &mesh, const Options &options,
-                     const std::vector<Finding> &of_file, const std::string &where,
-                     const Progress &progress);
+/// Whether more frames of the mesh will follow.
+enum class Further { none, frames };
 
-/// The same for a file: with its hints and its findings. Throws as load.
-LoadSteps load_steps(const MeshFile &file, const Options &options, const std::string &where,
-                     const Progress &progress);
+/// Everything that load does, for a file with its hints and its findings. Throws as load.
+LoadSteps load_steps(MeshFile file, const Options &options, const std::string &where,
+                     Further further, const Progress &progress);
 
 } // namespace tsuya::garment

@@ -38,7 +38,9 @@ FacePattern make_pattern(OpenSubdiv::Sdc::SchemeType scheme, int corners,
 FacePatterns::FacePatterns(const LimitSurface &surface, const TessellationRates &rates,
                            const Progress &progress) {
     const PolygonMesh &mesh = surface.mesh();
+    std::map<std::vector<int>, std::uint32_t> known;
     std::vector<int> key;
+    of_face_.reserve(mesh.face_count());
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         look_at_stop(progress, f);
         const auto corners = static_cast<int>(mesh.face_size(f));
@@ -49,23 +51,28 @@ FacePatterns::FacePatterns(const LimitSurface &surface, const TessellationRates 
         key.push_back(rates.inner[f].x);
         if (corners == 4)
             key.push_back(rates.inner[f].y);
-        const auto [it, added] = patterns_.try_emplace(key);
+        const auto [it, added] =
+            known.try_emplace(key, static_cast<std::uint32_t>(patterns_.size()));
         if (added)
-            it->second = make_pattern(surface.scheme(), corners, {key.begin() + 1, key.end()});
-        of_face_.push_back(&it->second);
+            patterns_.push_back(
+                make_pattern(surface.scheme(), corners, {key.begin() + 1, key.end()}));
+        of_face_.push_back(it->second);
     }
 }
 
 LimitNumbering::LimitNumbering(const LimitSurface &surface, const FacePatterns &patterns,
                                const TessellationRates &rates, const Progress &progress)
     : mesh_(surface.mesh()), corner_vertex_(mesh_.corner_position.size()),
-      edge_inner_(mesh_.corner_position.size()), edge_vertex_(mesh_.corner_position.size()),
       interior_vertex_(mesh_.face_count()) {
+    const bool cut =
+        std::any_of(rates.edge.begin(), rates.edge.end(), [](int rate) { return rate > 1; });
+    edge_inner_.resize(cut ? mesh_.corner_position.size() : 0);
+    edge_vertex_.resize(edge_inner_.size());
     const PolygonMesh &mesh = mesh_;
     const OpenSubdiv::Far::TopologyLevel &level = surface.topology();
     std::vector<std::uint32_t> vertex_head(mesh.position.size(), kNone);
     std::vector<std::uint32_t> edge_head(static_cast<std::size_t>(level.GetNumEdges()), kNone);
-    sides_.reserve(mesh.position.size() + edge_head.size());
+    sides_.reserve(mesh.position.size() + (cut ? edge_head.size() : 0));
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         look_at_stop(progress, f);
         const std::uint32_t panel = mesh.face_panel[f];
@@ -74,6 +81,8 @@ LimitNumbering::LimitNumbering(const LimitSurface &surface, const FacePatterns &
             const std::uint32_t a = mesh.corner_position[c];
             const std::int32_t uv = mesh.corner_uv[c];
             corner_vertex_[c] = find_or_add(vertex_head[a], {0, uv, uv, panel, kNone}, 1);
+            if (!cut)
+                continue;
             const int edge = edges[static_cast<int>(c - mesh.face_offset[f])];
             edge_inner_[c] =
                 static_cast<std::uint32_t>(rates.edge[static_cast<std::size_t>(edge)] - 1);
@@ -113,6 +122,8 @@ void LimitNumbering::face_vertices(std::size_t face, std::uint32_t interior_coun
     vertices.clear();
     for (std::uint32_t c = mesh_.face_offset[face]; c < mesh_.face_offset[face + 1]; ++c) {
         vertices.push_back(corner_vertex_[c]);
+        if (edge_inner_.empty())
+            continue;
         const bool forward = mesh_.corner_position[c] < mesh_.corner_position[mesh_.next(face, c)];
         const std::uint32_t inner = edge_inner_[c];
         for (std::uint32_t i = 0; i < inner; ++i)

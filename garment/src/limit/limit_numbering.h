@@ -22,11 +22,11 @@ class FacePatterns {
   public:
     FacePatterns(const LimitSurface &surface, const TessellationRates &rates,
                  const Progress &progress);
-    const FacePattern &of(std::size_t face) const { return *of_face_[face]; }
+    const FacePattern &of(std::size_t face) const { return patterns_[of_face_[face]]; }
 
   private:
-    std::map<std::vector<int>, FacePattern> patterns_;
-    std::vector<const FacePattern *> of_face_;
+    std::vector<FacePattern> patterns_;
+    std::vector<std::uint32_t> of_face_;
 };
 
 /// Numbers the vertices of the limit surface face by face: those numbered with face f are
@@ -63,7 +63,8 @@ class LimitNumbering {
     std::vector<std::uint32_t> face_first_{0};
     std::vector<std::uint32_t> place_;
     std::vector<Side> sides_;
-    std::vector<std::uint32_t> corner_vertex_;   ///< per corner
+    std::vector<std::uint32_t> corner_vertex_; ///< per corner
+    // Empty where no edge is cut.
     std::vector<std::uint32_t> edge_inner_;      ///< per corner: points inside the edge
     std::vector<std::uint32_t> edge_vertex_;     ///< per corner: of the edge that starts there
     std::vector<std::uint32_t> interior_vertex_; ///< per face

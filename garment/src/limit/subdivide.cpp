@@ -34,6 +34,7 @@ struct Subdivider::State {
         : mesh(std::move(given)), crease(options.seam_crease), surface(mesh, options, progress),
           rates(choose_rates(surface, options, progress)), patterns(surface, rates, progress),
           numbering(surface, patterns, rates, progress), corners(surface, numbering, progress) {
+        rates = {}; // the patterns have them
         const std::size_t vertices = numbering.place().size();
         fixed.place = numbering.place();
         fixed.panel_name = mesh.panel_name;
@@ -129,7 +130,7 @@ struct Subdivider::State {
         if (!stencils) {
             begin_stage(progress, "subdivide: weights");
             stencils.emplace(surface, patterns, numbering, progress);
-            first = evaluate(progress);
+            first = evaluate(fixed, progress);
             for (std::vector<glm::vec3> *changing : {&first->normal, &first->dp_du, &first->dp_dv})
                 changing->clear();
             first->position.clear();
@@ -154,8 +155,8 @@ struct Subdivider::State {
         }
     }
 
-    LimitMesh evaluate(const Progress &progress) const {
-        LimitMesh out = fixed;
+    /// \param out what no frame changes
+    LimitMesh evaluate(LimitMesh out, const Progress &progress) const {
         const std::size_t vertices = out.place.size();
         out.position.resize(vertices);
         out.normal.resize(vertices);
@@ -195,7 +196,9 @@ Subdivider::~Subdivider() = default;
 Subdivider::Subdivider(Subdivider &&) noexcept = default;
 Subdivider &Subdivider::operator=(Subdivider &&) noexcept = default;
 
-LimitMesh Subdivider::evaluate(const Progress &progress) { return state_->evaluate(progress); }
+LimitMesh Subdivider::evaluate(const Progress &progress) {
+    return state_->evaluate(state_->fixed, progress);
+}
 
 void Subdivider::expect_frames(const Progress &progress) { state_->next_frame(progress); }
 
@@ -210,9 +213,9 @@ LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions) {
     return state_->next_frame();
 }
 
-LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options,
-                    const Progress &progress) {
-    return Subdivider(mesh, options, progress).evaluate(progress);
+LimitMesh subdivide(PolygonMesh mesh, const SubdivideOptions &options, const Progress &progress) {
+    Subdivider::State state(std::move(mesh), options, progress);
+    return state.evaluate(std::move(state.fixed), progress);
 }
 
 } // namespace tsuya::garment

@@ -63,12 +63,12 @@ LoadedGarment load(const std::filesystem::path &path, const Options &options = {
 
 /// The same for a mesh in memory. \param mesh positions in units of the file
 /// \param where names the mesh in errors
-LoadedGarment load(const PolygonMesh &mesh, const Options &options, const std::string &where,
+LoadedGarment load(PolygonMesh mesh, const Options &options, const std::string &where,
                    const Progress &progress = {});
 
 /// The same for what read_mesh gave. The warp of panels whose material states anisotropy is laid
 /// along the threads of that hint, unless `options.frames.grain` names the panel.
-LoadedGarment load(const MeshFile &file, const Options &options, const std::string &where,
+LoadedGarment load(MeshFile file, const Options &options, const std::string &where,
                    const Progress &progress = {});
 
 } // namespace tsuya::garment

@@ -81,7 +81,7 @@ struct LimitMesh {
 /// the Loop scheme with faces that are not triangles, a vertex or face of 256 neighbours or more,
 /// or more points than the memory holds, before it is taken; Interrupted where `progress` says
 /// stop.
-LimitMesh subdivide(const PolygonMesh &mesh, const SubdivideOptions &options = {},
+LimitMesh subdivide(PolygonMesh mesh, const SubdivideOptions &options = {},
                     const Progress &progress = {});
 
 /// One control mesh whose positions change (an animated show): topology, rates of tessellation,
@@ -105,6 +105,8 @@ class Subdivider {
     void expect_frames(const Progress &progress = {});
 
   private:
+    friend LimitMesh subdivide(PolygonMesh mesh, const SubdivideOptions &options,
+                               const Progress &progress);
     struct State;
     std::unique_ptr<State> state_;
 };
