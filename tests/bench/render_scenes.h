@@ -1,0 +1,28 @@
+#pragma once
+// The scenes on which the renderer's speed is measured.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tsuya/sdk/render.h"
+
+namespace tsuya::bench {
+
+struct RenderScene {
+    std::string name{};
+    Scene scene{};
+    int max_bounces = 0;
+};
+
+// A pleated skirt of 50,000 quads on a plane.
+// \param fabric `ggx` or `yarn`
+// \param lights square lamps of .3 m on an arc in front of the skirt
+Scene skirt(const std::string &fabric, int lights, int size);
+
+// The skirt in both fabrics with direct light alone and with three bounces in an even environment;
+// the three-softbox studio.
+// \param scenes the folder of the scene files of the benchmarks
+std::vector<RenderScene> render_scenes(const std::filesystem::path &scenes);
+
+} // namespace tsuya::bench
