@@ -79,6 +79,40 @@ TEST(ClosedForm, PlaneBelowRectangle) {
     EXPECT_EQ(largest_difference(render(scene, quick(4)).image, 0, 0.0), 0.0);
 }
 
+// A light cut into many gives what the light gives: to the camera's vertex and after bounces, where
+// few of the many are chosen.
+TEST(ClosedForm, ManyLightsAreOne) {
+    Scene scene = folded_satin(16, 16);
+    scene.environment.reset();
+    const RectangleLight whole = scene.rectangles[0];
+    const auto totals = [&](const RenderSettings &settings) {
+        const SpectralImage image = render(scene, settings).image;
+        std::vector<double> rows(16);
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+                rows[std::size_t(y)] += image.pixel(0, x, y)[3];
+        return rows;
+    };
+    for (const int bounces : {0, 4}) {
+        RenderSettings settings = quick(1024);
+        settings.max_bounces = bounces;
+        scene.rectangles = {whole};
+        const std::vector<double> one = totals(settings);
+        constexpr int kParts = 5;
+        scene.rectangles.clear();
+        for (int i = 0; i < kParts * kParts; ++i) {
+            RectangleLight part = whole;
+            part.edge_u /= kParts;
+            part.edge_v /= kParts;
+            part.corner += double(i % kParts) * part.edge_u + double(i / kParts) * part.edge_v;
+            scene.rectangles.push_back(part);
+        }
+        const std::vector<double> many = totals(settings);
+        for (std::size_t y = 0; y < one.size(); ++y)
+            EXPECT_NEAR(many[y], one[y], 0.01 * one[y] + 0.01) << bounces << " bounces, row " << y;
+    }
+}
+
 // An environment picture that is even must give what an even environment gives, though it is
 // sampled.
 TEST(ClosedForm, EvenPictureIsEvenEnvironment) {
@@ -184,6 +218,27 @@ TEST(Promises, SkippingChangesNothing) {
     settings.skip = false;
     EXPECT_TRUE(plan(scene, settings).skips.empty());
     EXPECT_EQ(render(scene, settings).image.transport, lean.transport);
+}
+
+// Rays after the last vertex look for lights alone: beside an environment, beside a rectangle, and
+// behind holes.
+TEST(Promises, ShortLastRaysChangeNothing) {
+    Scene with_environment = folded_satin(40, 40), without = with_environment;
+    without.environment.reset();
+    for (const int bounces : {0, 2}) {
+        std::vector<double> rays;
+        for (const Scene *scene : {&with_environment, &without}) {
+            RenderSettings settings = quick(8);
+            settings.max_bounces = bounces;
+            const RenderResult lean = render(*scene, settings);
+            settings.skip = false;
+            const RenderResult full = render(*scene, settings);
+            EXPECT_EQ(lean.image.transport, full.image.transport) << bounces;
+            rays.push_back(double(lean.stats.rays) / double(full.stats.rays));
+        }
+        EXPECT_EQ(rays[0], 1) << bounces;
+        EXPECT_LT(rays[1], bounces == 0 ? 0.75 : 0.98) << bounces;
+    }
 }
 
 // An error rule spends samples where they are needed, and what it promises is there: the difference

@@ -14,73 +14,64 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Lights::Lights(const Scene &scene, const Plan &plan, const glm::dvec3 &centre,
                double scene_radius) {
-    std::vector<double> given;
+    double from_rectangles = 0; // irradiance in the middle of the scene
     for (const std::size_t i : plan.lights) {
         const RectangleLight &light = scene.rectangles[i];
-        Rectangle r;
-        r.corner = light.corner - centre;
-        r.edge_u = light.edge_u;
-        r.edge_v = light.edge_v;
-        const glm::dvec3 across = glm::cross(light.edge_u, light.edge_v);
-        r.area = static_cast<float>(glm::length(across));
-        r.normal = glm::normalize(across);
-        r.dual_u = glm::cross(light.edge_v, across) / glm::dot(across, across);
-        r.dual_v = glm::cross(across, light.edge_u) / glm::dot(across, across);
-        r.radiance = static_cast<float>(light.radiance);
-        r.group = light.group.value;
-        rectangles_.push_back(r);
+        const LightRectangle &r = rectangles_.emplace_back(light, centre);
         const glm::dvec3 middle = light.corner + 0.5 * (light.edge_u + light.edge_v) - centre;
-        given.push_back(light.radiance * r.area /
-                        std::max(glm::dot(middle, middle), scene_radius * scene_radius * 0.01));
+        from_rectangles += light.radiance * r.area() /
+                           std::max(glm::dot(middle, middle), scene_radius * scene_radius * 0.01);
     }
-    if (plan.environment) {
-        const Environment &environment = *scene.environment;
-        environment_ = true;
-        environment_visible_ = environment.visible;
-        environment_group_ = environment.group.value;
-        environment_scale_ = static_cast<float>(environment.radiance);
-        if (environment.picture) {
-            picture_ = &*environment.picture;
-            std::vector<double> mass;
-            for (int y = 0; y < picture_->height; ++y) {
-                const double sine = std::sin(kPiF * (y + 0.5) / picture_->height);
-                for (int x = 0; x < picture_->width; ++x)
-                    mass.push_back(picture_->pixel(x, y)[0] * sine);
-            }
-            environment_density_ = Distribution2D(mass, picture_->height, picture_->width);
-            given.push_back(kPiF * environment.radiance *
-                            std::accumulate(mass.begin(), mass.end(), 0.0) /
-                            static_cast<double>(mass.size()));
-        }
+    tree_ = LightTree(rectangles_);
+    if (!plan.environment)
+        return;
+    const Environment &environment = *scene.environment;
+    environment_ = true;
+    environment_visible_ = environment.visible;
+    environment_group_ = environment.group.value;
+    environment_scale_ = static_cast<float>(environment.radiance);
+    if (!environment.picture)
+        return;
+    picture_ = &*environment.picture;
+    std::vector<double> mass;
+    for (int y = 0; y < picture_->height; ++y) {
+        const double sine = std::sin(kPiF * (y + 0.5) / picture_->height);
+        for (int x = 0; x < picture_->width; ++x)
+            mass.push_back(picture_->pixel(x, y)[0] * sine);
     }
-    // Half in proportion, half even among those that shine: every light has a share, a dark one
-    // none
-    const double total = std::accumulate(given.begin(), given.end(), 0.0);
-    const auto shining = static_cast<double>(
-        std::count_if(given.begin(), given.end(), [](double g) { return g > 0; }));
-    for (const double g : given)
-        choice_.push_back(g > 0 ? static_cast<float>(0.5 * g / total + 0.5 / shining) : 0.0f);
+    environment_density_ = Distribution2D(mass, picture_->height, picture_->width);
+    const double from_environment = kPiF * environment.radiance *
+                                    std::accumulate(mass.begin(), mass.end(), 0.0) /
+                                    static_cast<double>(mass.size());
+    // Half in proportion, half even: either has a share, a dark one none
+    if (from_environment > 0)
+        environment_choice_ =
+            rectangles_.empty()
+                ? 1.0f
+                : static_cast<float>(0.5 * from_environment / (from_environment + from_rectangles) +
+                                     0.25);
 }
 
-std::size_t Lights::choose(float u) const {
-    std::size_t i = 0;
-    while (i + 1 < choice_.size() && u >= choice_[i])
-        u -= choice_[i++];
-    return i;
+std::optional<ChosenLight> Lights::choose(const Receiver &receiver, float u) const {
+    if (u < environment_choice_)
+        return ChosenLight{environment_light(), environment_choice_};
+    std::optional<ChosenLight> chosen =
+        tree_.choose(receiver, (u - environment_choice_) / (1 - environment_choice_));
+    if (chosen)
+        chosen->probability *= 1 - environment_choice_;
+    return chosen;
+}
+
+float Lights::choice_probability(const Receiver &receiver, std::size_t light) const {
+    return light == environment_light()
+               ? environment_choice_
+               : (1 - environment_choice_) * tree_.probability(receiver, light);
 }
 
 std::optional<LightRay> Lights::sample(std::size_t light, const glm::vec3 &from,
                                        glm::vec2 u) const {
-    if (light < rectangles_.size()) {
-        const Rectangle &r = rectangles_[light];
-        const glm::vec3 offset = r.corner + u.x * r.edge_u + u.y * r.edge_v - from;
-        const float distance2 = glm::dot(offset, offset), distance = std::sqrt(distance2);
-        const float facing = -glm::dot(offset, r.normal) / distance;
-        if (!(facing > 0))
-            return std::nullopt;
-        return LightRay{offset / distance, distance, r.radiance, distance2 / (facing * r.area),
-                        r.group};
-    }
+    if (light < rectangles_.size())
+        return rectangles_[light].sample(from, u);
     const Distribution2D::Sample s = environment_density_.sample(u);
     const float theta = kPiF * s.point.y, phi = 2 * kPiF * (s.point.x - 0.5f);
     const float sine = std::sin(theta);
@@ -94,6 +85,11 @@ std::optional<LightRay> Lights::sample(std::size_t light, const glm::vec3 &from,
 glm::vec2 Lights::square_of(const glm::vec3 &d) const {
     const float theta = std::atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y);
     return {std::atan2(d.x, d.z) / (2 * kPiF) + 0.5f, theta / kPiF};
+}
+
+LightMet Lights::meet_environment(const glm::vec3 &direction) const {
+    return {environment_radiance(direction), environment_group_, environment_light(),
+            environment_pdf(direction)};
 }
 
 float Lights::environment_radiance(const glm::vec3 &direction) const {

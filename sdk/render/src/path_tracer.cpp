@@ -10,19 +10,19 @@
 //
 // with f the BRDF, L_i the radiance of light i, V its visibility, and q_n the probability that the
 // path goes on (Russian roulette, [Veach] chapter Monte Carlo Integration). Light i is sampled with
-// density p_i; at x_0 every light is (c_i = 1), at later vertices one, chosen with probability c_i.
-// The sums over both ways to find a light are weighted by the balance heuristic, [Veach] chapter
+// density p_i: at x_0 every light of a few (c_i = 1), else one chosen with probability c_i by what
+// it may give to the vertex; of many lights several are chosen at x_0, in expectation c_i times i.
+// The sums over both ways to find a light are weighted by the power heuristic, [Veach] chapter
 // Multiple Importance Sampling:
 //
-//   m_i(w) = c_i p_i(w) / (c_i p_i(w) + p(w)),    m_p(w) = p(w) / (c_i p_i(w) + p(w))
-//
-// so that S_n's terms become f |cos| L_i V / (c_i p_i + p): no quotient of small densities.
+//   m_i(w) = (c_i p_i(w))^2 / ((c_i p_i(w))^2 + p(w)^2),    m_p(w) = 1 - m_i(w)
 
 #include "path_tracer.h"
 
 #include <cmath>
 #include <limits>
 
+#include "pixel_filter.h"
 #include "vertex.h"
 
 namespace tsuya {
@@ -32,7 +32,11 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // A shadow ray ends this share short of the light.
 constexpr float kShadowReach = 1.0f - 1e-4f;
 // Behind as many layers of holes a ray meets nothing.
-constexpr std::size_t kMostHoles = 64;
+constexpr std::uint32_t kMostHoles = 64;
+// At the camera's vertex as many lights are sampled each, and of more lights as many are chosen.
+constexpr std::uint32_t kFewLights = 4;
+// Number of the lone random pair that chooses lights there; those of holes stand before it.
+constexpr std::uint32_t kLightChoice = 2 * kMostHoles;
 // Russian roulette from this vertex on.
 constexpr std::uint32_t kRouletteFrom = 3;
 
@@ -41,8 +45,16 @@ template <int K> void spoil(Channels<K> *radiance) {
     radiance[0] = Channels<K>::filled(std::numeric_limits<float>::quiet_NaN());
 }
 
-// A sample of the pixel filter, a tent two pixels wide.
-float tent(float u) { return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
+// The power heuristic's weight of the density `of` against `other`, divided by `of`:
+// of / (of^2 + other^2), without squares that overflow. One of the two is above 0.
+float power_weight_over_pdf(float of, float other) {
+    if (of >= other) {
+        const float ratio = other / of;
+        return 1 / (of * (1 + ratio * ratio));
+    }
+    const float ratio = of / other;
+    return ratio / (other * (1 + ratio * ratio));
+}
 
 // A response in its colours, times a number.
 template <int K>
@@ -65,15 +77,16 @@ Channels<K> coloured(const Response &response, const Colours &colours, float sca
 
 // A path up to its last vertex, with the ray that goes on from there.
 template <int K> struct PathTracer<K>::Path {
-    const Sampler &sampler;
+    Sampler sampler;       // at the last vertex
     Channels<K> *radiance; // per light group
     glm::vec3 origin{}, direction{};
     std::uint32_t vertex = 0; // index of the last vertex
     Channels<K> throughput = Channels<K>::filled(1.0f);
 
     glm::vec2 random(Purpose purpose, std::size_t which = 0) const {
-        return sampler.pair(vertex, purpose, static_cast<std::uint32_t>(which));
+        return sampler.pair(purpose, static_cast<std::uint32_t>(which));
     }
+    void go_on() { sampler.go_to(++vertex); }
 };
 
 template <int K> bool PathTracer<K>::intersect(const Path &path, Hit &hit) {
@@ -81,16 +94,32 @@ template <int K> bool PathTracer<K>::intersect(const Path &path, Hit &hit) {
     return scene_.accelerator.intersect(path.origin, path.direction, kInfinity, hit);
 }
 
+// What the ray from a vertex meets. After the last vertex only the lights count: where none lies in
+// the ray's direction, a hit at distance 0 stands for whatever the ray would meet.
+template <int K> bool PathTracer<K>::find_next(const Path &path, Hit &hit) {
+    if (is_last(path) && scene_.plan.short_last_rays &&
+        !scene_.lights.crosses_rectangle(path.origin, path.direction)) {
+        hit.distance = 0;
+        if (!scene_.lights.has_environment())
+            return true;
+        if (!scene_.has_holes()) {
+            ++rays_;
+            return scene_.accelerator.occluded(path.origin, path.direction, kInfinity);
+        }
+    }
+    return intersect(path, hit) && (!scene_.has_holes() || pass_holes(path, false, hit));
+}
+
 // From the hit on through holes, each by chance, to what the ray meets.
 // \param from_camera the ray is the camera's, whose numbers are its own
 template <int K> bool PathTracer<K>::pass_holes(const Path &path, bool from_camera, Hit &hit) {
     const float angle = from_camera ? scene_.pixel_angle() : 0;
     float distance = 0;
-    for (std::size_t layer = 0; layer < kMostHoles; ++layer) {
+    for (std::uint32_t layer = 0; layer < kMostHoles; ++layer) {
         distance += hit.distance;
         const float opacity = scene_.opacity(hit, angle * distance);
         if (opacity >= 1 ||
-            path.random(Purpose::hole, from_camera ? layer : kMostHoles + layer).x < opacity) {
+            path.sampler.lone_pair(from_camera ? layer : kMostHoles + layer).x < opacity) {
             hit.distance = distance;
             return true;
         }
@@ -110,7 +139,7 @@ float PathTracer<K>::transmission(glm::vec3 origin, const glm::vec3 &direction, 
         return scene_.accelerator.occluded(origin, direction, distance) ? 0.0f : 1.0f;
     float passed = 1;
     Hit hit;
-    for (std::size_t layer = 0; layer < kMostHoles; ++layer) {
+    for (std::uint32_t layer = 0; layer < kMostHoles; ++layer) {
         if (!scene_.accelerator.intersect(origin, direction, distance, hit))
             return passed;
         passed *= 1 - scene_.opacity(hit, 0);
@@ -124,27 +153,53 @@ float PathTracer<K>::transmission(glm::vec3 origin, const glm::vec3 &direction, 
 }
 
 // The c_i of the estimator.
-template <int K> float PathTracer<K>::light_share(const Path &path, std::size_t light) const {
-    return path.vertex == 0 ? 1.0f : scene_.lights.choice_probability(light);
+template <int K>
+float PathTracer<K>::light_share(const Path &path, const Vertex &vertex, std::size_t light) const {
+    return every_light(path) ? 1.0f
+                             : scene_.lights.choice_probability(vertex.receiver(), light) *
+                                   static_cast<float>(chosen_lights(path));
+}
+
+// Each light is sampled at the path's last vertex.
+template <int K> bool PathTracer<K>::every_light(const Path &path) const {
+    return path.vertex == 0 && scene_.lights.count() <= kFewLights;
+}
+
+template <int K> std::uint32_t PathTracer<K>::chosen_lights(const Path &path) const {
+    return path.vertex == 0 ? kFewLights : 1;
 }
 
 // Adds beta_n S_n.
 template <int K>
 void PathTracer<K>::sample_lights(const Path &path, const Vertex &vertex, const Colours &colours) {
     const std::size_t count = scene_.lights.count();
-    if (path.vertex == 0)
-        for (std::size_t i = 0; i < count; ++i)
-            sample_light(path, vertex, colours, i);
-    else if (count > 0)
-        sample_light(path, vertex, colours,
-                     scene_.lights.choose(path.random(Purpose::light_choice).x));
+    if (every_light(path)) {
+        for (std::uint32_t i = 0; i < count; ++i)
+            sample_light(path, vertex, colours, {i, 1}, i);
+        return;
+    }
+    const std::uint32_t choices = count > 0 ? chosen_lights(path) : 0;
+    if (choices == 0)
+        return;
+    const float u = path.vertex == 0 ? path.sampler.lone_pair(kLightChoice).x
+                                     : path.random(Purpose::choice_and_survival).x;
+    for (std::uint32_t i = 0; i < choices; ++i) {
+        // One in each part of the range
+        const float of_part = (static_cast<float>(i) + u) / static_cast<float>(choices);
+        if (auto chosen = scene_.lights.choose(vertex.receiver(), of_part)) {
+            chosen->probability *= static_cast<float>(choices);
+            sample_light(path, vertex, colours, *chosen, i);
+        }
+    }
 }
 
+// \param chosen with the number of its samples, c_i, as probability
+// \param which of the samples at this vertex
 template <int K>
 void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const Colours &colours,
-                                 std::size_t light) {
-    const auto ray =
-        scene_.lights.sample(light, vertex.position(), path.random(Purpose::light_point, light));
+                                 const ChosenLight &chosen, std::uint32_t which) {
+    const auto ray = scene_.lights.sample(chosen.light, vertex.position(),
+                                          path.random(Purpose::light_point, which));
     if (!ray || !(ray->radiance > 0) || !vertex.accepts(ray->to_light))
         return;
     const Weighed w = vertex.weigh(ray->to_light);
@@ -154,32 +209,32 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
         transmission(vertex.ray_origin(ray->to_light), ray->to_light, ray->distance * kShadowReach);
     if (!(arrives > 0))
         return;
-    const float light_pdf = ray->pdf * light_share(path, light);
     path.radiance[ray->group].add(
-        coloured<K>(w.f_cos, colours, ray->radiance / (light_pdf + w.pdf)), path.throughput,
-        arrives);
+        coloured<K>(w.f_cos, colours,
+                    ray->radiance * power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf)),
+        path.throughput, arrives);
 }
 
 // Adds beta_n M_n; the path's throughput is beta_{n+1} already, but for the roulette.
 // \param distance to the next surface; infinite where there is none
 // \param pdf of the path's direction
 template <int K>
-void PathTracer<K>::add_lights_met(const Path &path, float distance, float pdf) const {
+void PathTracer<K>::add_lights_met(const Path &path, const Vertex &vertex, float distance,
+                                   float pdf) const {
     const Lights &lights = scene_.lights;
-    lights.meet_rectangles(
-        path.origin, path.direction, distance,
-        [&](float emitted, std::uint32_t group, float light_pdf, std::size_t light) {
-            path.radiance[group].add(path.throughput,
-                                     emitted * pdf / (pdf + light_pdf * light_share(path, light)));
-        });
-    if (distance < kInfinity || !lights.has_environment())
-        return;
-    const float emitted = lights.environment_radiance(path.direction);
-    const float light_pdf = lights.environment_pdf(path.direction);
-    const float weight =
-        light_pdf > 0 ? pdf / (pdf + light_pdf * light_share(path, lights.environment_light()))
-                      : 1.0f;
-    path.radiance[lights.environment_group()].add(path.throughput, emitted * weight);
+    const auto add = [&](const LightMet &met) {
+        const float sampled = met.pdf > 0 ? met.pdf * light_share(path, vertex, met.light) : 0.0f;
+        path.radiance[met.group].add(path.throughput,
+                                     met.radiance * (pdf * power_weight_over_pdf(pdf, sampled)));
+    };
+    lights.meet_rectangles(path.origin, path.direction, distance, add);
+    if (!(distance < kInfinity) && lights.has_environment())
+        add(lights.meet_environment(path.direction));
+}
+
+// No vertex follows the path's last one.
+template <int K> bool PathTracer<K>::is_last(const Path &path) const {
+    return path.vertex >= static_cast<std::uint32_t>(scene_.plan.max_bounces);
 }
 
 // Russian roulette, whose probability is the throughput's.
@@ -187,7 +242,7 @@ template <int K> bool PathTracer<K>::survives(Path &path) const {
     if (path.vertex + 1 < kRouletteFrom)
         return true;
     const float probability = std::fmin(1.0f, path.throughput.largest());
-    if (path.random(Purpose::survival).x >= probability)
+    if (path.random(Purpose::choice_and_survival).y >= probability)
         return false;
     path.throughput.scale(1 / probability);
     return true;
@@ -200,19 +255,20 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
     Path path{.sampler = sampler, .radiance = radiance};
 
     // Camera ray through a sample of the pixel filter
-    const glm::vec2 filter = path.random(Purpose::pixel);
+    const glm::vec2 place = filter_sample(path.random(Purpose::pixel));
     path.origin = scene_.eye;
-    path.direction = scene_.camera_direction(static_cast<float>(x) + 0.5f + tent(filter.x),
-                                             static_cast<float>(y) + 0.5f + tent(filter.y));
+    path.direction = scene_.camera_direction(static_cast<float>(x) + 0.5f + place.x,
+                                             static_cast<float>(y) + 0.5f + place.y);
     Hit hit;
     if (!intersect(path, hit) || (scene_.has_holes() && !pass_holes(path, true, hit))) {
-        if (scene_.lights.has_environment() && scene_.lights.environment_visible())
-            radiance[scene_.lights.environment_group()] =
-                Channels<K>::filled(scene_.lights.environment_radiance(path.direction));
+        if (scene_.lights.has_environment() && scene_.lights.environment_visible()) {
+            const LightMet met = scene_.lights.meet_environment(path.direction);
+            radiance[met.group] = Channels<K>::filled(met.radiance);
+        }
         return;
     }
 
-    for (;; ++path.vertex) {
+    for (;; path.go_on()) {
         // Vertex at the hit
         const SurfacePoint point = scene_.point(path.direction, hit);
         if (!point.is_finite())
@@ -244,13 +300,11 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
             return spoil(radiance);
 
         // Direct light, met by that ray
-        const bool found =
-            intersect(path, hit) && (!scene_.has_holes() || pass_holes(path, false, hit));
-        add_lights_met(path, found ? hit.distance : kInfinity, pdf);
+        const bool found = find_next(path, hit);
+        add_lights_met(path, vertex, found ? hit.distance : kInfinity, pdf);
 
         // End of the path
-        if (!found || path.vertex >= static_cast<std::uint32_t>(scene_.plan.max_bounces) ||
-            !survives(path))
+        if (!found || is_last(path) || !survives(path))
             return;
     }
 }

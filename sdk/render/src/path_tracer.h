@@ -34,13 +34,17 @@ template <int K> class PathTracer {
   private:
     struct Path;
     bool intersect(const Path &path, Hit &hit);
+    bool find_next(const Path &path, Hit &hit);
     bool pass_holes(const Path &path, bool from_camera, Hit &hit);
     float transmission(glm::vec3 origin, const glm::vec3 &direction, float distance);
     void sample_lights(const Path &path, const Vertex &vertex, const Colours &colours);
     void sample_light(const Path &path, const Vertex &vertex, const Colours &colours,
-                      std::size_t light);
-    void add_lights_met(const Path &path, float distance, float pdf) const;
-    float light_share(const Path &path, std::size_t light) const;
+                      const ChosenLight &chosen, std::uint32_t which);
+    void add_lights_met(const Path &path, const Vertex &vertex, float distance, float pdf) const;
+    float light_share(const Path &path, const Vertex &vertex, std::size_t light) const;
+    bool every_light(const Path &path) const;
+    std::uint32_t chosen_lights(const Path &path) const;
+    bool is_last(const Path &path) const;
     bool survives(Path &path) const;
 
     const PreparedScene &scene_;

@@ -1,11 +1,13 @@
 #pragma once
-// Random numbers that depend on pixel, sample index and purpose alone: padded two-dimensional Sobol
-// points with hashed Owen scrambling and shuffling [Burley].
+// Random numbers that depend on pixel, sample index and purpose alone: at each vertex of a path a
+// point of one joint Sobol sequence of eight dimensions, with hashed Owen scrambling and shuffling
+// [Burley].
 
 #include <cstdint>
 
 #include <glm/glm.hpp>
 
+#include "sobol.h"
 #include "tsuya/sdk/detail/integer_hash.h"
 
 namespace tsuya {
@@ -37,49 +39,56 @@ inline std::uint32_t nested_uniform_scramble(std::uint32_t x, std::uint32_t seed
     return reverse_bits(laine_karras(reverse_bits(x), seed));
 }
 
-// The second Sobol dimension: its generator matrix is Pascal's triangle modulo 2 [Joe], so that bit
-// i of the result is the sum of the bits of the index at all supersets of i.
-inline std::uint32_t sobol_second_reversed(std::uint32_t index) {
-    index ^= (index >> 1) & 0x55555555u;
-    index ^= (index >> 2) & 0x33333333u;
-    index ^= (index >> 4) & 0x0f0f0f0fu;
-    index ^= (index >> 8) & 0x00ff00ffu;
-    index ^= (index >> 16) & 0x0000ffffu;
-    return index;
-}
-
 inline float unit_float(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
 
-// What a random number is used for, within one vertex of a path.
+// What two random numbers are used for, within one vertex of a path.
 enum class Purpose : std::uint32_t {
+    pixel,                // at the first vertex
+    choice_and_survival = // at the others: which light, and whether the path goes on
     pixel,
-    light_choice,
     light_point,
     lobe_and_strategy,
-    direction,
-    survival,
-    hole,
-    count
+    direction
 };
 
 class Sampler {
   public:
-    Sampler(std::uint32_t pixel_seed, std::uint32_t sample) : seed_(pixel_seed), sample_(sample) {}
+    Sampler(std::uint32_t pixel_seed, std::uint32_t sample) : seed_(pixel_seed), sample_(sample) {
+        go_to(0);
+    }
 
-    // A point of [0,1)^2 for a purpose at a vertex of the path.
-    glm::vec2 pair(std::uint32_t vertex, Purpose purpose, std::uint32_t which = 0) const {
-        const auto count = static_cast<std::uint32_t>(Purpose::count);
-        const std::uint32_t key =
-            hash(seed_, (which * 65536u + vertex) * count + static_cast<std::uint32_t>(purpose));
-        // Shuffle the index, then scramble each dimension; both are Owen scramblings
-        const std::uint32_t index = nested_uniform_scramble(sample_, key);
-        const std::uint32_t x = laine_karras(index, hash(key, 1u));
-        const std::uint32_t y = laine_karras(sobol_second_reversed(index), hash(key, 2u));
-        return {unit_float(reverse_bits(x)), unit_float(reverse_bits(y))};
+    // The numbers are those of this vertex from now on. What one vertex uses is distributed
+    // jointly; vertices are independent of each other.
+    void go_to(std::uint32_t vertex) {
+        key_ = hash(seed_, vertex);
+        point_ = sobol_reversed(nested_uniform_scramble(sample_, key_));
+    }
+
+    // A point of [0,1)^2. \param which for what is done several times at a vertex: each is
+    // distributed jointly with the other purposes, and sums over samples of one and of another are
+    // uncorrelated
+    glm::vec2 pair(Purpose purpose, std::uint32_t which = 0) const {
+        const auto dimension = 2 * static_cast<std::uint32_t>(purpose);
+        return scrambled(
+            point_[dimension], point_[dimension + 1],
+            hash(key_, dimension + static_cast<std::uint32_t>(kSobolDimensions) * which));
+    }
+
+    // The same, independent of all pairs and of each other: for what happens seldom.
+    glm::vec2 lone_pair(std::uint32_t which) const {
+        const std::uint32_t key = hash(~key_, which);
+        const SobolPoint point = sobol_reversed(nested_uniform_scramble(sample_, key));
+        return scrambled(point[0], point[1], key);
     }
 
   private:
-    std::uint32_t seed_, sample_;
+    static glm::vec2 scrambled(std::uint32_t x, std::uint32_t y, std::uint32_t key) {
+        return {unit_float(reverse_bits(laine_karras(x, hash(key, 1u)))),
+                unit_float(reverse_bits(laine_karras(y, hash(key, 2u))))};
+    }
+
+    std::uint32_t seed_, sample_, key_ = 0;
+    SobolPoint point_{};
 };
 
 } // namespace tsuya

@@ -19,6 +19,9 @@ class Vertex {
           to_viewer_(point.frame.to_local(-direction)), view_(shading_.view_terms(to_viewer_)) {}
 
     const glm::vec3 &position() const { return point_.position; }
+    Receiver receiver() const {
+        return {point_.position, point_.geometric_normal, shading_.transmits()};
+    }
     // Light from this direction can arrive at the viewer.
     bool accepts(const glm::vec3 &to_light) const {
         return shading_.transmits() || is_above(to_light);

@@ -23,6 +23,7 @@ struct Plan {
     bool environment = false; ///< an environment shines
     bool any_specular = false;
     bool any_diffuse = false;
+    bool short_last_rays = false; ///< the ray after a path's last vertex looks for lights alone
     std::vector<std::size_t> lights{}; ///< rectangles that shine
     std::vector<Skip> skips{};
 };
