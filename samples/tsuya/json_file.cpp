@@ -80,6 +80,8 @@ Json json_of(const RenderStats &stats) {
             {"seconds", stats.seconds},
             {"build_seconds", stats.build_seconds},
             {"relative_error", stats.relative_error},
+            {"error_asked", stats.error_asked ? Json(*stats.error_asked) : Json()},
+            {"error_reached_share", stats.error_reached_share},
             {"rays", stats.rays},
             {"not_finite", stats.not_finite},
             {"triangles", stats.triangles},

@@ -38,9 +38,11 @@ struct Render final : Command {
                                      "spectral light transport; required unless --explain")
                                 .result({".exr"});
         Option &spp = o.option("--spp", &samples, "N", "samples per pixel").range(1, kMostSamples);
-        Option &mean = o.option("--error", &error, "E",
-                                "render until the mean relative standard error is below E")
-                           .range(1e-6, 1);
+        Option &mean =
+            o.option("--error", &error, "E",
+                     "render each part of the picture until the mean error of its pixels "
+                     "is below this share of its value")
+                .range(1e-6, 1);
         Option &time = o.option("--time", &seconds, "S", "render for S seconds").range(1e-3, 1e6);
         spp.excludes(mean).excludes(time);
         mean.excludes(time);

@@ -102,7 +102,8 @@ struct TryOn final : Command {
         o.option("--height", &job.height, "PIXELS", "height of the pictures").range(1, 32768);
         const Option &relative =
             o.option("--error", &error, "E",
-                     "render each part of the picture until its relative standard error is below E")
+                     "render each part of the picture until the mean error of its pixels is below "
+                     "this share of its value")
                 .positive();
         o.option("--spp,--samples", &samples, "N", "samples per pixel, the same everywhere")
             .range(1, 65536)

@@ -12,6 +12,10 @@ namespace {
 
 constexpr int kTileSize = 32;
 
+std::uint64_t pixels_of(const Tile &t) {
+    return static_cast<std::uint64_t>(t.x1 - t.x0) * static_cast<std::uint64_t>(t.y1 - t.y0);
+}
+
 } // namespace
 
 std::vector<std::string> channels_of(const std::string &aov) {
@@ -26,7 +30,7 @@ std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &setti
         aovs += channels_of(aov).size();
     const std::uint64_t transport =
         scene.light_groups.size() * static_cast<std::uint64_t>(settings.channels);
-    // In the film, which has the sum of squares too, and in the picture that is made of it
+    // In the film, which has the difference too, and in the picture that is made of it
     const std::uint64_t floats = 2 * (transport + aovs) + 1;
     return floats * sizeof(float) * static_cast<std::uint64_t>(scene.camera.width) *
            static_cast<std::uint64_t>(scene.camera.height);
@@ -34,10 +38,10 @@ std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &setti
 
 Film::Film(const Scene &scene, const RenderSettings &settings)
     : width(scene.camera.width), height(scene.camera.height), channels(settings.channels),
-      groups(scene.light_groups.size()) {
+      groups(scene.light_groups.size()), all_split(settings.stop.relative_error.has_value()) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     sum.resize(pixels * groups * static_cast<std::size_t>(channels));
-    sum_of_squares.resize(pixels);
+    difference.resize(pixels);
     for (const std::string &aov : settings.aovs)
         aov_sums.push_back(Image::make(width, height, channels_of(aov)));
     const auto [x0, y0, x1, y1] = settings.crop.value_or(std::array<int, 4>{0, 0, width, height});
@@ -49,15 +53,18 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
 
 Film::TileError Film::tile_error(std::size_t t) const {
     TileError result;
-    const double n = done[t];
+    const double n = done[t], odd = done[t] / 2, even = n - odd;
     const std::size_t count = groups * static_cast<std::size_t>(channels);
     for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
         for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {
+            if (!is_split(x, y))
+                continue;
             const float *const p = sum.data() + at(x, y) * count;
             const double mean = std::accumulate(p, p + count, 0.0) / static_cast<double>(count) / n;
-            const double variance = sum_of_squares[at(x, y)] / n - mean * mean;
-            result.errors += std::sqrt(std::max(0.0, variance) / (n - 1));
+            const double less = difference[at(x, y)];
+            result.errors += 0.25 * std::abs((n * mean + less) / even - (n * mean - less) / odd);
             result.values += mean;
+            ++result.pixels;
         }
     return result;
 }
@@ -66,8 +73,7 @@ double Film::relative_error(std::size_t t) const {
     if (done[t] < 2)
         return std::numeric_limits<double>::infinity();
     const TileError e = tile_error(t);
-    const double pixels = (tiles[t].x1 - tiles[t].x0) * (tiles[t].y1 - tiles[t].y0);
-    return e.errors / std::max(e.values, kDark * pixels);
+    return e.errors / std::max(e.values, kDark * e.pixels);
 }
 
 double Film::relative_error() const {
@@ -81,11 +87,19 @@ double Film::relative_error() const {
     return total.values > 0 ? total.errors / total.values : 0;
 }
 
+double Film::share_within(double error) const {
+    std::uint64_t within = 0, all = 0;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        all += pixels_of(tiles[t]);
+        within += relative_error(t) <= error ? pixels_of(tiles[t]) : 0;
+    }
+    return static_cast<double>(within) / static_cast<double>(all);
+}
+
 std::uint64_t Film::samples() const {
     std::uint64_t n = 0;
     for (std::size_t t = 0; t < tiles.size(); ++t)
-        n += static_cast<std::uint64_t>(done[t]) *
-             static_cast<std::uint64_t>((tiles[t].x1 - tiles[t].x0) * (tiles[t].y1 - tiles[t].y0));
+        n += static_cast<std::uint64_t>(done[t]) * pixels_of(tiles[t]);
     return n;
 }
 

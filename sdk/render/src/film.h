@@ -27,9 +27,13 @@ struct Film {
     int width, height, channels;
     std::size_t groups;
     std::vector<Tile> tiles{};
-    std::vector<std::int32_t> done{};    // samples per pixel, per tile
-    std::vector<float> sum{};            // [y][x][group][k]
-    std::vector<float> sum_of_squares{}; // [y][x], of the mean over groups and channels
+    std::vector<std::int32_t> done{}; // samples per pixel, per tile
+    std::vector<float> sum{};         // [y][x][group][k]
+    // [y][x], of the mean over groups and channels: the samples of even index less the others
+    std::vector<float> difference{};
+    // Whether every pixel's samples are split into two independent sequences, so that their
+    // difference tells the error. Else one pixel of four is: one sequence has the smaller error.
+    bool all_split;
     std::vector<Image> aov_sums{};
     std::uint64_t not_finite = 0; // samples left out of the sums
     std::uint64_t rays = 0;
@@ -46,22 +50,28 @@ struct Film {
     }
     // Traced so far, those that are not finite too.
     std::uint64_t samples() const;
-    // Mean standard error of the pixels of a tile over their mean value, or over kDark where they
-    // are darker; infinite before there are two samples.
+    // Estimate of the mean absolute error of the pixels of a tile over their mean value, or over
+    // kDark where they are darker; infinite before there are two samples. Of pixels that are split,
+    // the samples of even and of odd index are independent estimates: half their difference is
+    // distributed as the error of their mean.
     double relative_error(std::size_t tile) const;
     // The same for the whole picture.
     double relative_error() const;
+    // The part of the picture in tiles whose error is at most this.
+    double share_within(double error) const;
     // Means of the sums.
     SpectralImage develop(const Scene &scene, const RenderSettings &settings) const;
+    // See all_split.
+    bool is_split(int x, int y) const { return all_split || (x % 2 == 0 && y % 2 == 0); }
     std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                static_cast<std::size_t>(x);
     }
 
   private:
-    // Sums over the pixels of a tile of standard errors and of values.
+    // Sums over the split pixels of a tile of errors and of values.
     struct TileError {
-        double errors = 0, values = 0;
+        double errors = 0, values = 0, pixels = 0;
     };
     TileError tile_error(std::size_t tile) const;
 };

@@ -7,16 +7,17 @@
 namespace tsuya {
 namespace {
 
-constexpr const char *kKind = "render 3";
+constexpr const char *kKind = "render 4";
 
 // What is kept of a film, in order: for the writer (a constant film) and the reader.
 template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
     file.value(film.not_finite);
     file.value(film.rays);
     file.value(film.seconds);
+    file.value(film.all_split);
     file.array(std::span(film.done));
     file.array(std::span(film.sum));
-    file.array(std::span(film.sum_of_squares));
+    file.array(std::span(film.difference));
     for (auto &aov : film.aov_sums)
         file.array(std::span(aov.data));
 }

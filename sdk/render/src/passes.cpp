@@ -137,22 +137,28 @@ template <int K> class Passes {
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x)
                 for (int s = from; s < to; ++s) {
-                    const std::uint32_t seed =
-                        hash(hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)),
-                             settings_.seed);
                     FirstHit first;
-                    tracer.trace(x, y, Sampler(seed, static_cast<std::uint32_t>(s)),
+                    tracer.trace(x, y, sampler_of(x, y, static_cast<std::uint32_t>(s)),
                                  radiance.data(), radiance.size(),
                                  settings_.aovs.empty() ? nullptr : &first);
                     add_first_hit(film_, settings_, x, y, first);
-                    not_finite += add(x, y, radiance) ? 0 : 1;
+                    not_finite += add(x, y, s % 2 == 0 ? 1.0f : -1.0f, radiance) ? 0 : 1;
                 }
         rays_ += tracer.rays();
         not_finite_ += not_finite;
     }
 
+    Sampler sampler_of(int x, int y, std::uint32_t sample) const {
+        const std::uint32_t seed = hash(
+            hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), settings_.seed);
+        if (!film_.is_split(x, y))
+            return {seed, sample};
+        return {hash(seed, 1 + sample % 2), sample / 2};
+    }
+
     // Adds one sample; false where it is left out because it is not finite.
-    bool add(int x, int y, const std::vector<Channels<K>> &radiance) {
+    // \param sign in the film's difference
+    bool add(int x, int y, float sign, const std::vector<Channels<K>> &radiance) {
         float mean = 0;
         for (const Channels<K> &c : radiance)
             mean += c.mean() / static_cast<float>(radiance.size());
@@ -162,7 +168,7 @@ template <int K> class Passes {
         for (const Channels<K> &c : radiance)
             for (std::size_t k = 0; k < K; ++k)
                 *to++ += c.v[k];
-        film_.sum_of_squares[film_.at(x, y)] += mean * mean;
+        film_.difference[film_.at(x, y)] += sign * mean;
         return true;
     }
 

@@ -85,11 +85,15 @@ RenderResult result_of(const Film &film, const Scene &scene, const RenderSetting
     stats.samples_per_pixel = std::accumulate(film.done.begin(), film.done.end(), 0.0) /
                               static_cast<double>(film.done.size());
     stats.relative_error = film.relative_error();
+    stats.error_asked = settings.stop.relative_error;
+    if (stats.error_asked)
+        stats.error_reached_share = film.share_within(*stats.error_asked);
     stats.rays = film.rays;
     stats.not_finite = film.not_finite;
     for (const Object &object : scene.objects)
         stats.triangles += scene.surfaces[object.surface.value].triangle.size();
     result.image.metadata["samples_per_pixel"] = std::to_string(stats.samples_per_pixel);
+    result.image.metadata["relative_error"] = std::to_string(stats.relative_error);
     result.image.metadata["seed"] = std::to_string(settings.seed);
     if (film.not_finite > 0)
         result.warnings.push_back({std::to_string(film.not_finite) + " of " +

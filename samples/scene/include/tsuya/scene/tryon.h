@@ -22,7 +22,7 @@
 
 namespace tsuya::scene {
 
-/// Default quality of the picture of a try-on: the mean standard error
+/// Default quality of the picture of a try-on: the mean error of the pixels
 /// of each part of it, as a share of its value, and the most samples that a pixel may take.
 inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.035};
 

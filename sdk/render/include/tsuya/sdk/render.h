@@ -23,8 +23,9 @@ namespace tsuya {
 /// When a render is done: at the first that is reached.
 struct StopRule {
     int samples_per_pixel = 64; ///< 1 to 65536; at most, where an error is given
-    /// Each part of the picture is done when the mean standard error of its pixels is below this
-    /// share of their mean value: smooth parts are done first. Above 0, finite.
+    /// Each part of the picture is done when the mean absolute error of its pixels is below this
+    /// share of their mean value (or of a twentieth of a white diffuser's, where they are darker):
+    /// smooth parts are done first. Above 0, finite.
     std::optional<double> relative_error{};
     /// Of tracing, over all runs that a checkpoint joins; not reproducible. Above 0, finite.
     std::optional<double> seconds{};
@@ -70,7 +71,14 @@ struct RenderStats {
     double samples_per_pixel = 0; ///< mean over the picture
     double seconds = 0;
     double build_seconds = 0; ///< of the BVH and the materials
+    /// Estimate of the mean absolute error of the pixels, all groups and channels together, over
+    /// their mean value. Where StopRule::relative_error is given, all pixels tell it, else a
+    /// quarter of them, whose samples are spread a little less evenly: it is somewhat too high
+    /// then.
     double relative_error = 0;
+    std::optional<double> error_asked{}; ///< StopRule::relative_error
+    /// The part of the picture that reached it; 1 where none was asked for.
+    double error_reached_share = 1;
     std::uint64_t rays = 0;
     std::uint64_t not_finite = 0; ///< samples left out because they were NaN or infinite
     std::uint64_t triangles = 0;
