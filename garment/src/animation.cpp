@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "limit/renew_frames.h"
 #include "load_steps.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
@@ -48,6 +49,7 @@ struct AnimatedGarment::State {
     std::string where;
     std::size_t vertices;
     LoadSteps steps;
+    LimitMesh limit{}; ///< memory of the last frame
 };
 
 AnimatedGarment::AnimatedGarment(const MeshFile &file, const Options &options,
@@ -65,6 +67,16 @@ AnimatedGarment &AnimatedGarment::operator=(AnimatedGarment &&) noexcept = defau
 const LoadedGarment &AnimatedGarment::first() const { return state_->steps.garment; }
 
 Surface AnimatedGarment::frame(const std::vector<glm::dvec3> &positions) {
+    const Surface &first = state_->steps.garment.surface;
+    Surface surface;
+    surface.triangle = first.triangle;
+    surface.panel = first.panel;
+    surface.panel_name = first.panel_name;
+    frame(positions, surface);
+    return surface;
+}
+
+void AnimatedGarment::frame(const std::vector<glm::dvec3> &positions, Surface &surface) {
     if (positions.size() != state_->vertices)
         throw Error({detail::counted(positions.size(), "position") + " for " +
                          detail::counted(state_->vertices, "vertex", "vertices"),
@@ -72,10 +84,10 @@ Surface AnimatedGarment::frame(const std::vector<glm::dvec3> &positions) {
     std::vector<glm::dvec3> metres = positions;
     for (glm::dvec3 &p : metres)
         p = in_metres(state_->options, p);
-    LimitMesh limit =
-        state_->steps.subdivider->evaluate(state_->steps.recipe.apply(std::move(metres)));
+    state_->steps.subdivider->evaluate(state_->steps.recipe.apply(std::move(metres)),
+                                       state_->limit);
     FrameReport report;
-    return add_frames(std::move(limit), state_->steps.frames, report, state_->where);
+    renew_frames(state_->limit, state_->steps.frames, report, state_->where, surface);
 }
 
 } // namespace tsuya::garment

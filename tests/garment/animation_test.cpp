@@ -58,6 +58,34 @@ TEST(AnimatedGarment, AFrameIsWhatLoadingItsMeshGives) {
     }
 }
 
+// Whatever was shown before.
+TEST(AnimatedGarment, TheMemoryOfAnotherFrameChangesNothing) {
+    MeshFile file = sewn_panels();
+    for (const bool with_uv : {true, false}) {
+        if (!with_uv) {
+            file.mesh.uv.clear();
+            std::fill(file.mesh.corner_uv.begin(), file.mesh.corner_uv.end(), -1);
+        }
+        AnimatedGarment show(file, {.frames = {.invented_grain = 0.3}}, "show");
+        const std::vector<glm::dvec3> moved = waved(file.mesh.position), twice = waved(moved);
+        const Surface expected = show.frame(moved);
+        Surface again = show.first().surface;
+        const std::vector<glm::dvec3> rest = file.mesh.position;
+        for (const std::vector<glm::dvec3> *shape : {&twice, &rest, &moved}) {
+            for (glm::dvec3 &p : again.position)
+                p += glm::dvec3(1, 2, 3); // as a scene that translates it
+            show.frame(*shape, again);
+        }
+        EXPECT_EQ(again.position, expected.position);
+        EXPECT_EQ(again.normal, expected.normal);
+        EXPECT_EQ(again.warp, expected.warp);
+        EXPECT_EQ(again.weft, expected.weft);
+        EXPECT_EQ(again.uv, expected.uv);
+        EXPECT_EQ(again.triangle, expected.triangle);
+        EXPECT_EQ(again.panel, expected.panel);
+    }
+}
+
 TEST(AnimatedGarment, SeamsStayClosedAndBadFramesAreErrors) {
     const MeshFile file = sewn_panels();
     AnimatedGarment show(file, {}, "show");

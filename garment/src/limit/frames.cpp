@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "limit/renew_frames.h"
 #include "mesh/distance.h"
 #include "mesh/stop.h"
 #include "tsuya/sdk/angle.h"
@@ -14,11 +15,12 @@ namespace {
 
 /// `v` without its part along the unit vector `n`, made unit; false where nothing is left.
 bool into_plane(const glm::dvec3 &v, const glm::dvec3 &n, glm::vec3 &unit) {
+    constexpr double kLeast = 1e-6 * 1e-6; // of the squared length
     const glm::dvec3 flat = v - glm::dot(v, n) * n;
-    const double length = glm::length(flat);
-    if (!(length > 1e-6 * glm::length(v)) || !std::isfinite(length) || !(length > 0.0))
+    const double length2 = glm::dot(flat, flat);
+    if (!(length2 > kLeast * glm::dot(v, v)) || !std::isfinite(length2) || !(length2 > 0.0))
         return false;
-    unit = glm::vec3(flat / length);
+    unit = glm::vec3(flat / std::sqrt(length2));
     return true;
 }
 
@@ -57,7 +59,7 @@ void invent_frames(const LimitMesh &mesh, double angle, const std::vector<bool> 
         if (valid[v])
             continue;
         const glm::dvec3 n(mesh.normal[v]);
-        glm::vec3 up;
+        glm::vec3 up(0.0f);
         if (!into_plane({0, 1, 0}, n, up))
             into_plane({0, 0, -1}, n, up); // straight up or down: the back of the garment is "up"
         const glm::dvec3 left = glm::cross(n, glm::dvec3(up));
@@ -69,29 +71,38 @@ void invent_frames(const LimitMesh &mesh, double angle, const std::vector<bool> 
 
 /// Derivatives by UV at the vertices of seams, from the triangles of either side, by their area.
 /// There the places follow the rules of the inside and the UVs those of an edge: among triangles of
-/// all shapes the limit derivatives of the two do not go together. Zero at other vertices.
+/// all shapes the limit derivatives of the two do not go together.
 struct SeamDerivatives {
+    static constexpr std::uint32_t kNone = 0xffffffff;
+    std::vector<std::uint32_t> slot; ///< of each vertex, into `p_u` and `p_v`; kNone off the seams
     std::vector<glm::dvec3> p_u, p_v;
 };
 
 SeamDerivatives derivatives_at_seams(const LimitMesh &mesh) {
-    std::vector<bool> on_seam(mesh.position.size());
+    constexpr std::uint32_t kNone = SeamDerivatives::kNone;
+    SeamDerivatives sums{std::vector<std::uint32_t>(mesh.position.size(), kNone), {}, {}};
+    std::uint32_t count = 0;
     for (std::uint32_t v = 0; v < mesh.place.size(); ++v)
         if (mesh.place[v] != v)
-            on_seam[v] = on_seam[mesh.place[v]] = true;
-    SeamDerivatives sums{std::vector<glm::dvec3>(mesh.position.size(), glm::dvec3(0.0)),
-                         std::vector<glm::dvec3>(mesh.position.size(), glm::dvec3(0.0))};
+            for (const std::uint32_t side : {v, mesh.place[v]})
+                if (sums.slot[side] == kNone)
+                    sums.slot[side] = count++;
+    sums.p_u.assign(count, glm::dvec3(0.0));
+    sums.p_v.assign(count, glm::dvec3(0.0));
+    if (count == 0)
+        return sums;
     for (const glm::uvec3 &t : mesh.triangle) {
-        if (!on_seam[t.x] && !on_seam[t.y] && !on_seam[t.z])
+        const glm::uvec3 slot(sums.slot[t.x], sums.slot[t.y], sums.slot[t.z]);
+        if (slot == glm::uvec3(kNone))
             continue;
         const glm::dvec3 e = mesh.position[t.y] - mesh.position[t.x];
         const glm::dvec3 f = mesh.position[t.z] - mesh.position[t.x];
         const glm::dvec2 a(mesh.uv[t.y] - mesh.uv[t.x]), b(mesh.uv[t.z] - mesh.uv[t.x]);
         const double side = a.x * b.y - a.y * b.x < 0.0 ? -1.0 : 1.0;
         for (int c = 0; c < 3; ++c)
-            if (on_seam[t[c]]) {
-                sums.p_u[t[c]] += side * (b.y * e - a.y * f);
-                sums.p_v[t[c]] += side * (a.x * f - b.x * e);
+            if (slot[c] != kNone) {
+                sums.p_u[slot[c]] += side * (b.y * e - a.y * f);
+                sums.p_v[slot[c]] += side * (a.x * f - b.x * e);
             }
     }
     return sums;
@@ -114,9 +125,12 @@ void frames_from_uv(const LimitMesh &mesh, const std::vector<glm::dvec2> &grain,
         const double c = grain[mesh.panel[v]].x, d = grain[mesh.panel[v]].y;
         const glm::dvec3 n(mesh.normal[v]);
         glm::dvec3 p_u(mesh.dp_du[v]), p_v(mesh.dp_dv[v]);
-        if (are_apart(p_u, seams.p_u[v]) || are_apart(p_v, seams.p_v[v])) {
-            p_u = seams.p_u[v];
-            p_v = seams.p_v[v];
+        if (seams.slot[v] != SeamDerivatives::kNone) {
+            const glm::dvec3 &q_u = seams.p_u[seams.slot[v]], &q_v = seams.p_v[seams.slot[v]];
+            if (are_apart(p_u, q_u) || are_apart(p_v, q_v)) {
+                p_u = q_u;
+                p_v = q_v;
+            }
         }
         // The yarns' own coordinates are the UV turned by the grain.
         const bool mirrored = glm::dot(glm::cross(p_u, p_v), n) < 0.0;
@@ -262,17 +276,22 @@ void frames_of_cloth(const LimitMesh &mesh, const FrameOptions &options, Surface
 
 } // namespace
 
+void renew_frames(LimitMesh &mesh, const FrameOptions &options, FrameReport &report,
+                  const std::string &where, Surface &surface, const Progress &progress) {
+    if (!mesh.uv.empty())
+        frames_of_cloth(mesh, options, surface, report, where, progress);
+    else if (options.invented_grain)
+        invent_frames(mesh, *options.invented_grain, std::vector<bool>(mesh.position.size()),
+                      surface, progress);
+    surface.position.swap(mesh.position);
+    surface.normal.swap(mesh.normal);
+}
+
 Surface add_frames(LimitMesh mesh, const FrameOptions &options, FrameReport &report,
                    const std::string &where, const Progress &progress) {
     begin_stage(progress, "garment: frames");
     Surface s;
-    if (!mesh.uv.empty())
-        frames_of_cloth(mesh, options, s, report, where, progress);
-    else if (options.invented_grain)
-        invent_frames(mesh, *options.invented_grain, std::vector<bool>(mesh.position.size()), s,
-                      progress);
-    s.position = std::move(mesh.position);
-    s.normal = std::move(mesh.normal);
+    renew_frames(mesh, options, report, where, s, progress);
     s.triangle = std::move(mesh.triangle);
     s.panel = std::move(mesh.triangle_panel);
     s.panel_name = std::move(mesh.panel_name);

@@ -28,6 +28,12 @@ glm::dvec4 cloth_of(const LimitSample &sample) {
     return {dp_du.x, dp_du.y, dp_dv.x, dp_dv.y};
 }
 
+void add_weighted(double *__restrict sum, const double *__restrict weight, double value,
+                  std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k)
+        sum[k] += weight[k] * value;
+}
+
 } // namespace
 
 LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &patterns,
@@ -50,14 +56,14 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
                 static_cast<std::size_t>(worker.scratch.surface.GetNumControlPoints()));
             worker.scratch.surface.GetControlPointIndices(control.data());
             face.control.assign(control.begin(), control.end());
-            const std::size_t n = control.size();
-            Weights weight(3 * n * (first_[f + 1] - first_[f]));
+            const std::size_t n = control.size(), count = first_[f + 1] - first_[f];
+            Weights weight(3 * n * count), rows(3 * n);
             for (std::size_t i = 0; i < worker.vertices.size(); ++i) {
                 const std::uint32_t v = worker.vertices[i];
                 if (v < first_[f])
                     continue;
                 const glm::dvec2 at = pattern.coordinate[i];
-                double *const w = &weight[3 * n * (v - first_[f])];
+                double *const w = rows.data();
                 worker.scratch.surface.EvaluateStencil(&at.x, w, w + n, w + 2 * n);
                 LimitSample sample = surface.sample(at, worker.scratch);
                 glm::dvec3 n_unused, u_unused, v_unused;
@@ -72,6 +78,8 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
                 }
                 if (worker.scratch.has_uv)
                     cloth_[v] = cloth_of(sample);
+                for (std::size_t k = 0; k < 3 * n; ++k)
+                    weight[(k % n * 3 + k / n) * count + v - first_[f]] = w[k];
             }
             const std::lock_guard lock(sharing);
             face.weight = &*weights_.insert(std::move(weight)).first;
@@ -82,30 +90,34 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
 
 void LimitStencils::apply(const PolygonMesh &mesh, const glm::dvec3 &centre, LimitMesh &out) const {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, face_.size(), 64), [&](auto range) {
-        std::vector<glm::dvec3> points;
+        std::vector<double> sums;
         for (std::size_t f = range.begin(); f != range.end(); ++f)
-            apply_face(f, mesh, centre, points, out);
+            apply_face(f, mesh, centre, sums, out);
     });
 }
 
 void LimitStencils::apply_face(std::size_t f, const PolygonMesh &mesh, const glm::dvec3 &centre,
-                               std::vector<glm::dvec3> &points, LimitMesh &out) const {
+                               std::vector<double> &sums, LimitMesh &out) const {
     const Face &face = face_[f];
-    const std::size_t n = face.control.size();
     if (!face.weight)
         return;
+    // Sums over the control points of positions, and of both derivatives, side by side: loops of
+    // independent sums, which the compiler makes wide.
+    const std::size_t count = first_[f + 1] - first_[f], row = 3 * count;
+    sums.assign(3 * row, 0.0);
+    double *const x = sums.data(), *const y = x + row, *const z = y + row;
     const double *w = face.weight->data();
-    points.clear();
-    for (const std::uint32_t control : face.control)
-        points.push_back(mesh.position[control] - centre);
-    for (std::uint32_t v = first_[f]; v < first_[f + 1]; ++v, w += 3 * n) {
-        LimitSample sample{.p = glm::dvec3(0.0), .p_u = glm::dvec3(0.0), .p_v = glm::dvec3(0.0)};
-        for (std::size_t i = 0; i < n; ++i) {
-            const glm::dvec3 &p = points[i];
-            sample.p += w[i] * p;
-            sample.p_u += w[n + i] * p;
-            sample.p_v += w[2 * n + i] * p;
-        }
+    for (const std::uint32_t control : face.control) {
+        const glm::dvec3 p = mesh.position[control] - centre;
+        add_weighted(x, w, p.x, row);
+        add_weighted(y, w, p.y, row);
+        add_weighted(z, w, p.z, row);
+        w += row;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t v = first_[f] + i, u = count + i, t = u + count;
+        const LimitSample sample{
+            .p = {x[i], y[i], z[i]}, .p_u = {x[u], y[u], z[u]}, .p_v = {x[t], y[t], z[t]}};
         out.position[v] = centre + sample.p;
         glm::dvec3 normal;
         if (!sample.normal(normal))

@@ -21,16 +21,17 @@ class LimitStencils {
     void apply(const PolygonMesh &mesh, const glm::dvec3 &centre, LimitMesh &out) const;
 
   private:
-    /// For each vertex of a face, three rows of weights as long as its control points. Faces that
-    /// are regular and cut alike share one, which keeps it in the cache.
+    /// For each control point of a face, its weights in the positions of the face's vertices, then
+    /// in both derivatives of each. Faces that are regular and cut alike share one, which keeps it
+    /// in the cache.
     using Weights = std::vector<double>;
     struct Face {
         std::vector<std::uint32_t> control;
         const Weights *weight = nullptr;
     };
-    /// \param points scratch
+    /// \param sums scratch
     void apply_face(std::size_t face, const PolygonMesh &mesh, const glm::dvec3 &centre,
-                    std::vector<glm::dvec3> &points, LimitMesh &out) const;
+                    std::vector<double> &sums, LimitMesh &out) const;
 
     std::set<Weights> weights_; ///< its elements do not move
     std::vector<Face> face_;

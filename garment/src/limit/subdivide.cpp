@@ -125,8 +125,9 @@ struct Subdivider::State {
         store(sample, n, has_uv, face, vertex, out);
     }
 
-    /// Frames after the first: weighted sums, and what no frame changes.
-    LimitMesh next_frame(const Progress &progress = {}) {
+    /// Frames after the first: weighted sums, and what no frame changes, which a mesh of an earlier
+    /// frame has already.
+    void next_frame(LimitMesh &out, const Progress &progress = {}) {
         if (!stencils) {
             begin_stage(progress, "subdivide: weights");
             stencils.emplace(surface, patterns, numbering, progress);
@@ -135,7 +136,8 @@ struct Subdivider::State {
                 changing->clear();
             first->position.clear();
         }
-        LimitMesh out = *first;
+        if (out.place.size() != first->place.size())
+            out = *first;
         out.position.resize(out.place.size());
         out.normal.resize(out.place.size());
         out.dp_du.resize(out.uv.size());
@@ -143,7 +145,6 @@ struct Subdivider::State {
         stencils->apply(mesh, surface.centre(), out);
         corners.apply(mesh.position, surface.centre(), out);
         close_seams(out);
-        return out;
     }
 
     /// Both sides of a seam take the position of the first, so that no crack can open.
@@ -200,9 +201,18 @@ LimitMesh Subdivider::evaluate(const Progress &progress) {
     return state_->evaluate(state_->fixed, progress);
 }
 
-void Subdivider::expect_frames(const Progress &progress) { state_->next_frame(progress); }
+void Subdivider::expect_frames(const Progress &progress) {
+    LimitMesh unused;
+    state_->next_frame(unused, progress);
+}
 
 LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions) {
+    LimitMesh out;
+    evaluate(positions, out);
+    return out;
+}
+
+void Subdivider::evaluate(const std::vector<glm::dvec3> &positions, LimitMesh &out) {
     if (positions.size() != state_->mesh.position.size())
         throw Error({std::to_string(positions.size()) + " positions for " +
                          std::to_string(state_->mesh.position.size()) + " vertices",
@@ -210,7 +220,7 @@ LimitMesh Subdivider::evaluate(const std::vector<glm::dvec3> &positions) {
     state_->mesh.position = positions;
     check_indices(state_->mesh, "mesh");
     state_->surface.set_positions(positions);
-    return state_->next_frame();
+    state_->next_frame(out);
 }
 
 LimitMesh subdivide(PolygonMesh mesh, const SubdivideOptions &options, const Progress &progress) {

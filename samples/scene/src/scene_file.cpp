@@ -148,7 +148,7 @@ SceneFrames &SceneFrames::operator=(SceneFrames &&) noexcept = default;
 void SceneFrames::show(std::size_t frame, Scene &scene) {
     if (state_)
         for (const std::size_t m : state_->moving)
-            scene.surfaces[m] = state_->meshes.frame(m, frame);
+            state_->meshes.show(m, frame, scene.surfaces[m]);
 }
 
 /// Puts the parts of a scene together, in this order.

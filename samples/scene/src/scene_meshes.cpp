@@ -66,12 +66,13 @@ garment::LoadedGarment SceneMeshes::load(std::size_t m) {
     return loaded;
 }
 
-Surface SceneMeshes::frame(std::size_t m, std::size_t frame) {
-    Surface surface =
-        frame == 0 ? moving_[m]->first().surface : moving_[m]->frame(meshes_[m].further[frame - 1]);
+void SceneMeshes::show(std::size_t m, std::size_t frame, Surface &surface) {
+    if (frame == 0)
+        surface = moving_[m]->first().surface;
+    else
+        moving_[m]->frame(meshes_[m].further[frame - 1], surface);
     for (glm::dvec3 &p : surface.position)
         p += meshes_[m].translate;
-    return surface;
 }
 
 } // namespace tsuya::scene

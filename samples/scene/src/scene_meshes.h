@@ -39,8 +39,8 @@ class SceneMeshes {
 
     // Shapes of mesh `m` with the one it was loaded in, which is frame 0.
     std::size_t frame_count(std::size_t m) const { return 1 + meshes_[m].further.size(); }
-    // The surface of a frame of a mesh that has several. Throws as AnimatedGarment::frame.
-    Surface frame(std::size_t m, std::size_t frame);
+    // Gives the surface of a mesh that has several another shape. Throws as AnimatedGarment::frame.
+    void show(std::size_t m, std::size_t frame, Surface &surface);
 
     std::size_t count() const { return meshes_.size(); }
     // Options and report of mesh `m`, as it was loaded last.

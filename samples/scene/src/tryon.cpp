@@ -352,7 +352,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
                      (static_cast<double>(i) + fraction) / static_cast<double>(count));
         };
         if (frame > 0 && i % dyes.size() == 0)
-            scene.surfaces[0] = stage.meshes.frame(0, frame);
+            stage.meshes.show(0, frame, scene.surfaces[0]);
         if (dye.spectrum)
             scene.fabrics[0].colours.dye_all(*dye.spectrum);
         const RenderResult rendered = render_try_on(scene, job.render, part, &kept);

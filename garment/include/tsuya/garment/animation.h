@@ -44,6 +44,8 @@ class AnimatedGarment {
     /// triangles have the numbers of the first. Throws Error for another number of positions, or
     /// one that is not finite.
     Surface frame(const std::vector<glm::dvec3> &positions);
+    /// The same in the memory of another frame's surface, or of a copy of the first: faster.
+    void frame(const std::vector<glm::dvec3> &positions, Surface &surface);
 
   private:
     struct State;

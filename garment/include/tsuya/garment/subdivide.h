@@ -101,6 +101,8 @@ class Subdivider {
     /// The limit surface of other positions; vertices and triangles keep their numbers. The rates
     /// stay those of the mesh that was given. Throws Error for another number of positions.
     LimitMesh evaluate(const std::vector<glm::dvec3> &positions);
+    /// The same in the memory of a mesh that an earlier call gave, or of an empty one.
+    void evaluate(const std::vector<glm::dvec3> &positions, LimitMesh &out);
     /// Works out now what the first call with other positions would: weights of the control points.
     void expect_frames(const Progress &progress = {});
 
