@@ -54,13 +54,13 @@ Yarn silk(double per_cm, double width, double flattening, int filaments) {
 
 /// 19 momme, the weight of dresses: warp 2 x 20/22 denier without twist, weft 4 x 20/22 denier with
 /// a crepe's twist. Weights of the trade are 12, 16, 19 and 30 momme, and up to 2600 turns are
-/// usual [CrepeSatin]; 300 to 600 threads to the square inch (409 here) in floats over 4 or 7
+/// usual [CrepeSatin]; 300 to 600 threads to the square inch (406 here) in floats over 4 or 7
 /// [CrepeBackSatin]; wefts of crepe are 2 to 4 x 20/22 denier [CrepeWeft]. Denser ends would be
 /// taller than wide, as circles about triangular filaments are what is packed.
 Weave silk_charmeuse() {
-    const Yarn warp = silk(118, 0.100e-3, 0.645, 36);
-    Yarn weft = silk(43, 0.136e-3, 0.8, 72);
-    weft.twist_per_m = 2000;
+    const Yarn warp = silk(112, 0.100e-3, 0.645, 36);
+    Yarn weft = silk(46, 0.1245e-3, 0.98, 72);
+    weft.twist_per_m = 1400; // a turn in a repeat of the draft, which keeps the cell small
     weft.tension = kStraight;
     return {"silk charmeuse", parse_draft("satin 8"), warp, weft};
 }
