@@ -145,6 +145,7 @@ void add_ring(Tubes &tubes, const Path::Station &s, double radius,
     const glm::dvec3 side = glm::cross(up, s.tangent);
     const glm::dvec3 x = side * std::cos(s.turn) + up * std::sin(s.turn);
     const glm::dvec3 y = up * std::cos(s.turn) - side * std::sin(s.turn);
+    tubes.tangent.emplace_back(s.tangent);
     for (const OutlinePoint &o : section) {
         tubes.position.emplace_back(s.position + radius * (x * o.position.x + y * o.position.y));
         // The surface of a twisted section is inclined to the axis as well
@@ -168,8 +169,7 @@ void add_tube(Tubes &tubes, const std::vector<Path::Station> &stations, const St
         tubes.strand.push_back(number);
         for (std::uint32_t k = 0; k < m; ++k) {
             const std::uint32_t p = a + k, q = a + (k + 1) % m;
-            tubes.triangle.emplace_back(p, q, p + m);
-            tubes.triangle.emplace_back(q + m, p + m, q);
+            tubes.quad.emplace_back(p, q, q + m, p + m);
         }
     }
 }
@@ -216,9 +216,18 @@ double gap_of(const std::vector<Path> &paths, const std::vector<Placed> &placed)
 
 } // namespace
 
+Neighbour neighbour(const Strand &strand, std::uint32_t segment, bool next, float size) {
+    const std::uint32_t end = strand.first_segment + strand.count;
+    if (next && segment + 1 == end)
+        return {segment + 1 - strand.per_cell, -size};
+    if (!next && segment == strand.first_segment)
+        return {segment - 1 + strand.per_cell, size};
+    return {next ? segment + 1 : segment - 1, 0};
+}
+
 std::vector<OutlinePoint> outline(FilamentSection section, double corner_rounding, int points) {
     std::vector<OutlinePoint> result;
-    const int count = std::max(points, 12);
+    const int count = std::max(points, 12) / 3 * 3; // of all sections alike
     if (section == FilamentSection::triangular) {
         // Three corners of a circle each, joined by straight edges
         const double corner = std::clamp(corner_rounding, kSharpestCorner, 1.0);
@@ -248,11 +257,10 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
 FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment,
                            int section_points, const Progress &progress) {
     double radius = 0;
-    bool clear = false;
-    for (const Filament &f : repeat.filaments) {
+    for (const FilamentOptics &optics : repeat.optics)
+        clear.push_back(optics.transmission > 0);
+    for (const Filament &f : repeat.filaments)
         radius += f.radius;
-        clear = clear || repeat.optics[f.system].transmission > 0;
-    }
     unit = radius / static_cast<double>(repeat.filaments.size());
     const double scale = static_cast<double>(repeat.filaments.size()) / radius;
     const glm::dvec2 period = repeat.size * scale;
@@ -280,7 +288,7 @@ FilamentCell::FilamentCell(const FilamentRepeat &repeat, double turn_per_segment
         stop_if_asked(progress);
         place(paths[i], i, repeat.filaments[i].system == 0 ? 1 : 0, period, whole, placed);
     }
-    if (clear)
+    if (std::find(clear.begin(), clear.end(), true) != clear.end())
         separate(gap_of(paths, placed), repeat.name);
     for (const Placed &p : placed) {
         stop_if_asked(progress);

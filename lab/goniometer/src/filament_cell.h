@@ -21,6 +21,15 @@ struct Strand {
     std::uint32_t per_cell;             // segments until the same comes again, a cell farther
 };
 
+// The segment after or before another, with what is to be added to points along the strand's axis
+// where it is that of the next cell.
+struct Neighbour {
+    std::uint32_t segment;
+    float shift;
+};
+// \param size of the cell along the strand's axis
+Neighbour neighbour(const Strand &strand, std::uint32_t segment, bool next, float size);
+
 // Chains of cones.
 struct Cones {
     std::vector<glm::vec4> vertex{};     // position and radius
@@ -30,14 +39,17 @@ struct Cones {
     std::vector<std::uint32_t> strand{}; // per cone: index into FilamentCell::strands
 };
 
-// Tubes of rings of `ring_size` points.
+// Tubes of rings of `ring_size` points. Their walls are quads of two triangles each: wall k of a
+// segment has the corners a = ring + k, b = the next one of the ring, d = a + ring_size and c = b +
+// ring_size, and the triangles a, b, d and c, d, b, counter-clockwise as seen from outside.
 struct Tubes {
     std::uint32_t ring_size = 0;
     std::vector<glm::vec3> position{}, normal{};
+    std::vector<glm::vec3> tangent{};    // per ring: the normal of its plane
     std::vector<std::uint32_t> ring{};   // first vertex of the first ring of each tube segment
     std::vector<std::uint8_t> system{};  // per tube segment
     std::vector<std::uint32_t> strand{}; // per tube segment
-    std::vector<glm::uvec3> triangle{};  // 2 ring_size per tube segment
+    std::vector<glm::uvec4> quad{};      // ring_size per tube segment
 };
 
 // A point of a section's outline.
@@ -70,6 +82,7 @@ struct FilamentCell {
     double unit = 1;           // metres
     double gap = 1;            // least_gap() of the filaments as they are here; not found if black
     double thinning = 1;       // of their radii
+    std::vector<bool> clear{}; // per system: lets light through
     std::vector<Strand> strands{};
     Cones cones{};
     Tubes tubes{};

@@ -21,6 +21,12 @@ double distance(const Capsule &p, const Capsule &q) {
     return glm::distance(a + s * u, b + t * v);
 }
 
+// About the axis of a capsule.
+struct Ball {
+    glm::vec3 middle;
+    float radius;
+};
+
 struct Entry {
     std::uint64_t cell;
     std::uint32_t capsule;
@@ -61,6 +67,9 @@ std::vector<Entry> grid_of(const std::vector<Capsule> &capsules) {
 
 double least_gap(const std::vector<Capsule> &capsules) {
     const std::vector<Entry> entries = grid_of(capsules);
+    std::vector<Ball> balls;
+    for (const Capsule &c : capsules)
+        balls.push_back({0.5f * (c.from + c.to), 0.5f * glm::distance(c.from, c.to)});
     double least = 1;
     for (std::size_t first = 0, end = 0; first < entries.size(); first = end) {
         while (end < entries.size() && entries[end].cell == entries[first].cell)
@@ -70,11 +79,10 @@ double least_gap(const std::vector<Capsule> &capsules) {
                 const Capsule &a = capsules[entries[i].capsule], &b = capsules[entries[j].capsule];
                 if (a.strand == b.strand)
                     continue;
-                // Their middles are farther apart than that
-                const glm::vec3 d = 0.5f * (a.from + a.to - b.from - b.to);
+                const Ball &p = balls[entries[i].capsule], &q = balls[entries[j].capsule];
+                const glm::vec3 d = p.middle - q.middle; // farther apart than that
                 const float reach =
-                    0.5f * (glm::distance(a.from, a.to) + glm::distance(b.from, b.to)) +
-                    static_cast<float>(1 + least) * (a.radius + b.radius);
+                    p.radius + q.radius + static_cast<float>(1 + least) * (a.radius + b.radius);
                 if (glm::dot(d, d) < reach * reach)
                     least = std::min(least, distance(a, b) / (a.radius + b.radius) - 1);
             }

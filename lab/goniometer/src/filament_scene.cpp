@@ -16,9 +16,9 @@ namespace tsuya::lab {
 namespace {
 
 constexpr unsigned kCones = 0, kTubes = 1;
-// Triangles: of more, spatial splits take many seconds, at first some in which Embree does not ask
-// whether to stop, and rays through the 4.8 million of the silk charmeuse are no faster.
-constexpr std::size_t kMostSplit = 1'000'000;
+// Walls: of more, spatial splits take many seconds, at first some in which Embree does not ask
+// whether to stop, and rays through the millions of the silk charmeuse are no faster.
+constexpr std::size_t kMostSplit = 500'000;
 constexpr int kMostSteps = 20000;  // cells and inner walls that one ray passes
 constexpr float kPastWall = 1e-3f; // radii: how far beyond an inner wall a ray goes on
 
@@ -56,13 +56,13 @@ struct FilamentScene::State {
     }
 };
 
-FilamentScene::FilamentScene(FilamentCell cell, const Progress &progress)
-    : cell_(std::move(cell)), state_(std::make_unique<State>()) {
+FilamentScene::FilamentScene(FilamentCell cell, const Progress &progress, Normals normals)
+    : cell_(std::move(cell)), normals_(normals), state_(std::make_unique<State>()) {
     state_->device = rtcNewDevice(nullptr);
     if (!state_->device)
         throw Error({"Embree cannot be started on this machine", "", ""});
     state_->scene = rtcNewScene(state_->device);
-    rtcSetSceneBuildQuality(state_->scene, cell_.tubes.triangle.size() > kMostSplit
+    rtcSetSceneBuildQuality(state_->scene, cell_.tubes.quad.size() > kMostSplit
                                                ? RTC_BUILD_QUALITY_MEDIUM
                                                : RTC_BUILD_QUALITY_HIGH);
     if (Cones &c = cell_.cones; !c.first.empty()) {
@@ -72,10 +72,10 @@ FilamentScene::FilamentScene(FilamentCell cell, const Progress &progress)
         share(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, c.first);
         state_->attach(geometry, kCones);
     }
-    if (Tubes &t = cell_.tubes; !t.triangle.empty()) {
-        const RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (Tubes &t = cell_.tubes; !t.quad.empty()) {
+        const RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_QUAD);
         share(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, t.position);
-        share(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, t.triangle);
+        share(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, t.quad);
         state_->attach(geometry, kTubes);
     }
     tsuya::detail::BvhMonitor monitor(progress);
@@ -90,31 +90,24 @@ FilamentScene::~FilamentScene() = default;
 namespace {
 
 // The normal of the tube about the smooth axis, not of the cone: it does not jump at the joints.
-Hit on_cone(const Cones &cones, std::uint32_t segment, const glm::vec3 &point) {
+glm::vec3 smooth_normal(const Cones &cones, std::uint32_t segment, const glm::vec3 &point) {
     const std::uint32_t first = cones.first[segment];
     const glm::vec3 a(cones.vertex[first]), axis = glm::vec3(cones.vertex[first + 1]) - a;
     const float along = std::clamp(glm::dot(point - a, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
     const glm::vec3 tangent =
         glm::normalize(glm::mix(cones.tangent[first], cones.tangent[first + 1], along));
     const glm::vec3 radial = point - a - along * axis;
-    return {point,
-            glm::normalize(radial - tangent * glm::dot(radial, tangent)),
-            cones.system[segment],
-            true,
-            segment,
-            radial};
+    return glm::normalize(radial - tangent * glm::dot(radial, tangent));
 }
 
-Hit on_tube(const Tubes &tubes, const RTCHit &ray_hit, const glm::vec3 &point) {
-    const std::uint32_t triangle = ray_hit.primID;
-    const float u = ray_hit.u, v = ray_hit.v;
-    const glm::uvec3 &t = tubes.triangle[triangle];
-    const float w = 1 - u - v;
-    const std::uint32_t segment = triangle / (2 * tubes.ring_size);
-    const glm::vec3 normal =
-        glm::normalize(w * tubes.normal[t.x] + u * tubes.normal[t.y] + v * tubes.normal[t.z]);
-    return {point, normal,  tubes.system[segment],
-            false, segment, {ray_hit.Ng_x, ray_hit.Ng_y, ray_hit.Ng_z}};
+// The mean of the normals at the corners of the triangle that was hit.
+glm::vec3 smooth_normal(const Tubes &tubes, const RTCHit &hit) {
+    const glm::uvec4 &q = tubes.quad[hit.primID];
+    const bool first = hit.u + hit.v <= 1;
+    const float u = first ? hit.u : 1 - hit.u, v = first ? hit.v : 1 - hit.v;
+    return glm::normalize((1 - u - v) * tubes.normal[first ? q.x : q.z] +
+                          u * tubes.normal[first ? q.y : q.w] +
+                          v * tubes.normal[first ? q.w : q.y]);
 }
 
 } // namespace
@@ -163,18 +156,24 @@ Fate FilamentScene::trace(glm::vec3 origin, const glm::vec3 &direction, Hit &hit
             part.wrap(origin, direction, cell_.size);
             continue;
         }
-        const glm::vec3 point = origin + query.ray.tfar * direction;
-        hit = query.hit.geomID == kCones ? on_cone(cell_.cones, query.hit.primID, point)
-                                         : on_tube(cell_.tubes, query.hit, point);
-        if (glm::dot(hit.normal, direction) < 0)
-            return Fate::hit;
+        hit.point = origin + query.ray.tfar * direction;
+        hit.on_cone = query.hit.geomID == kCones;
+        hit.segment = hit.on_cone ? query.hit.primID : query.hit.primID / cell_.tubes.ring_size;
+        hit.system =
+            hit.on_cone ? cell_.cones.system[hit.segment] : cell_.tubes.system[hit.segment];
+        if (is_smooth(hit.system)) {
+            hit.normal = hit.on_cone ? smooth_normal(cell_.cones, hit.segment, hit.point)
+                                     : smooth_normal(cell_.tubes, query.hit);
+            if (glm::dot(hit.normal, direction) < 0)
+                return Fate::hit;
+        }
         const glm::vec3 face{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
         if (glm::dot(face, direction) < 0) { // smooth normals turn away at the silhouette
             hit.normal = glm::normalize(face);
             return Fate::hit;
         }
         // From inside: filaments in contact may share a little space
-        origin = point + kPastWall * direction;
+        origin = hit.point + kPastWall * direction;
     }
     return Fate::lost;
 }
@@ -193,48 +192,6 @@ bool FilamentScene::escapes(glm::vec3 origin, const glm::vec3 &direction) const 
         part.wrap(origin, direction, cell_.size);
     }
     return false;
-}
-
-Fate FilamentScene::within_tube(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
-                                float &travelled) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    const std::uint32_t strand = cell_.tubes.strand[place.segment];
-    travelled = 0;
-    for (int step = 0; step < kMostSteps; ++step) {
-        const Leg part = leg(place.point, direction);
-        RTCRayHit query;
-        query.ray = tsuya::detail::make_ray<RTCRay>(place.point, direction,
-                                                    std::min(part.length(), reach - travelled));
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(state_->scene, &context, &query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-            if (reach - travelled <= part.length()) {
-                place.point += (reach - travelled) * direction;
-                travelled = reach;
-                return Fate::lost;
-            }
-            if (part.leaves())
-                return direction.z > 0 ? Fate::above : Fate::below;
-            travelled += part.side;
-            part.wrap(place.point, direction, cell_.size);
-            continue;
-        }
-        const glm::vec3 point = place.point + query.ray.tfar * direction;
-        travelled += query.ray.tfar;
-        if (query.hit.geomID == kTubes) {
-            hit = on_tube(cell_.tubes, query.hit, point);
-            // Copies of a filament side by side are different strands with the same wall
-            const Strand &own = cell_.strands[strand];
-            const Strand &other = cell_.strands[cell_.tubes.strand[hit.segment]];
-            if (own.filament == other.filament && glm::dot(hit.face, direction) > 0)
-                return Fate::hit;
-        }
-        place.point = point + kPastWall * direction;
-        travelled += kPastWall;
-    }
-    return Fate::lost;
 }
 
 } // namespace tsuya::lab

@@ -15,11 +15,10 @@ inline constexpr float kRayOffset = 2e-3f; // of a ray from the surface that it 
 
 // Where a ray hits a filament.
 struct Hit {
-    glm::vec3 point, normal; // the normal is smooth and points outwards
+    glm::vec3 point, normal; // the normal points outwards
     std::uint32_t system;
     bool on_cone;
     std::uint32_t segment; // cone or tube segment
-    glm::vec3 face;        // outward normal of the shape itself, of any length
 };
 
 // A point within a filament.
@@ -33,8 +32,16 @@ enum class Fate { hit, above, below, lost };
 
 class FilamentScene {
   public:
+    // Normals of hits are those of the smooth filament, or of the shape itself.
+    enum class Normals {
+        smooth,
+        for_light // of the shape where light goes through a filament: by a smooth one it would
+                  // leave on the side that it came from; else smooth
+    };
+
     // Throws Interrupted where `progress` is stopped.
-    FilamentScene(FilamentCell cell, const Progress &progress);
+    FilamentScene(FilamentCell cell, const Progress &progress,
+                  Normals normals = Normals::for_light);
     ~FilamentScene();
     FilamentScene(const FilamentScene &) = delete;
     FilamentScene &operator=(const FilamentScene &) = delete;
@@ -54,7 +61,7 @@ class FilamentScene {
 
     // Follows a ray within a filament to its wall, or for `reach` where that is nearer. `travelled`
     // is how far it came; at a wall, `hit` is where, else `place` is. Hit: at the wall. Lost:
-    // not at the wall. Above, below: the ray found a crack in the wall and left the cloth.
+    // not at the wall.
     Fate within(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
                 float &travelled) const;
 
@@ -63,6 +70,9 @@ class FilamentScene {
   private:
     struct State;
     struct Leg;
+    bool is_smooth(std::uint32_t system) const {
+        return normals_ == Normals::smooth || !cell_.clear[system];
+    }
     Leg leg(glm::vec3 &origin, const glm::vec3 &direction) const;
     Fate within_cones(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
                       float &travelled) const;
@@ -70,6 +80,7 @@ class FilamentScene {
                      float &travelled) const;
 
     FilamentCell cell_;
+    Normals normals_;
     std::unique_ptr<State> state_;
 };
 

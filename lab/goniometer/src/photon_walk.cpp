@@ -85,7 +85,7 @@ class Walker {
     }
     // The next leg of the path after a hit; false where it ends
     bool reflect(const Hit &hit, Photon &photon);
-    bool pass(Hit &hit, Photon &photon);
+    bool pass(const Hit &hit, Photon &photon);
     bool survives(double &energy);
     void store(Sums &sums);
 
@@ -186,11 +186,8 @@ bool Walker::reflect(const Hit &hit, Photon &photon) {
     return survives(photon.energy);
 }
 
-// Light that goes through the wall must do so by the wall's own normal: one that is interpolated
-// would let it leave on the side that it came from.
-bool Walker::pass(Hit &hit, Photon &photon) {
+bool Walker::pass(const Hit &hit, Photon &photon) {
     const RoughDielectric &boundary = matter_[hit.system].body->boundary;
-    hit.normal = glm::normalize(hit.face);
     const Side side = photon.inside ? Side::inside : Side::outside;
     const Frame frame = make_frame(photon.inside ? -hit.normal : hit.normal);
     glm::vec3 from = frame.to_local(-photon.direction);

@@ -69,7 +69,8 @@ class Painter {
     Painter(const Weave &weave, const WeavePictureSettings &settings, const FilamentRepeat &repeat,
             const Progress &progress)
         : settings_(settings),
-          scene_(FilamentCell(repeat, kTurnPerSegment, kSectionPoints, progress), progress),
+          scene_(FilamentCell(repeat, kTurnPerSegment, kSectionPoints, progress), progress,
+                 FilamentScene::Normals::smooth),
           color_{color_of(weave.warp), color_of(weave.weft)} {
         double radius = 0;
         for (const Filament &f : repeat.filaments)

@@ -56,22 +56,6 @@ struct Rod {
     }
 };
 
-// The next or the last segment of a strand, with what is to be added to points where it is a cell
-// farther.
-struct Neighbour {
-    std::uint32_t segment;
-    float shift;
-};
-
-Neighbour neighbour(const Strand &strand, std::uint32_t segment, bool next, float size) {
-    const std::uint32_t end = strand.first_segment + strand.count;
-    if (next && segment + 1 == end)
-        return {segment + 1 - strand.per_cell, -size};
-    if (!next && segment == strand.first_segment)
-        return {segment - 1 + strand.per_cell, size};
-    return {next ? segment + 1 : segment - 1, 0};
-}
-
 } // namespace
 
 Fate FilamentScene::within_cones(Inside &place, const glm::vec3 &direction, float reach, Hit &hit,
@@ -104,8 +88,7 @@ Fate FilamentScene::within_cones(Inside &place, const glm::vec3 &direction, floa
         if (goes_on)
             continue;
         hit.point = place.point;
-        hit.face = rod.radial(place.point);
-        hit.normal = glm::normalize(hit.face);
+        hit.normal = glm::normalize(rod.radial(place.point));
         hit.system = strand.system;
         hit.on_cone = true;
         hit.segment = place.segment;
