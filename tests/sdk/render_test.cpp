@@ -305,9 +305,9 @@ TEST(Promises, TheErrorIsAsItIsTold) {
                 settings.stop.relative_error.reset();
                 const RenderResult plain = render(*scene, settings);
                 const double less = true_error(*scene, plain.image, reference);
-                EXPECT_LT(less, 1.1 * error) << bounces << " " << samples;
+                EXPECT_LT(less, 1.2 * error) << bounces << " " << samples;
                 EXPECT_LT(plain.stats.relative_error, 1.8 * less) << bounces << " " << samples;
-                EXPECT_GT(plain.stats.relative_error, less / 1.2) << bounces << " " << samples;
+                EXPECT_GT(plain.stats.relative_error, less / 1.4) << bounces << " " << samples;
             }
         }
 }
