@@ -2,11 +2,48 @@
 
 #include <embree3/rtcore.h>
 
+#include <limits>
+
 #include "tsuya/sdk/detail/bvh_monitor.h"
 #include "tsuya/sdk/detail/embree_ray.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
+
+namespace {
+
+static_assert(RayPacket::kMost == 8, "RTCRay8");
+
+struct alignas(32) Lanes {
+    int valid[RayPacket::kMost] = {};
+};
+
+// The rays of a packet in their lanes; those behind the last stay idle.
+Lanes fill(const RayPacket &rays, RTCRay8 &to) {
+    Lanes lanes;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        lanes.valid[i] = -1;
+        to.org_x[i] = rays.origin[i].x;
+        to.org_y[i] = rays.origin[i].y;
+        to.org_z[i] = rays.origin[i].z;
+        to.tnear[i] = 0;
+        to.dir_x[i] = rays.direction[i].x;
+        to.dir_y[i] = rays.direction[i].y;
+        to.dir_z[i] = rays.direction[i].z;
+        to.tfar[i] = rays.farthest[i];
+        to.mask[i] = ~0u;
+    }
+    return lanes;
+}
+
+RTCIntersectContext coherent_context() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+}
+
+} // namespace
 
 struct Accelerator::State {
     RTCDevice device = nullptr;
@@ -86,6 +123,34 @@ bool Accelerator::occluded(const glm::vec3 &origin, const glm::vec3 &direction,
     RTCRay ray = detail::make_ray<RTCRay>(origin, direction, farthest);
     rtcOccluded1(state_->scene, &context, &ray);
     return ray.tfar < 0;
+}
+
+void Accelerator::intersect(const RayPacket &rays, std::array<Hit, RayPacket::kMost> &hits) const {
+    RTCIntersectContext context = coherent_context();
+    RTCRayHit8 query{};
+    const Lanes lanes = fill(rays, query.ray);
+    for (unsigned &id : query.hit.geomID)
+        id = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect8(lanes.valid, state_->scene, &context, &query);
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        const bool is_hit = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        const float u = query.hit.u[i], v = query.hit.v[i];
+        hits[i] = {.distance = is_hit ? query.ray.tfar[i] : std::numeric_limits<float>::infinity(),
+                   .barycentric = {1 - u - v, u, v},
+                   .face_normal = {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]},
+                   .object = query.hit.geomID[i],
+                   .triangle = query.hit.primID[i]};
+    }
+}
+
+void Accelerator::occluded(const RayPacket &rays,
+                           std::array<bool, RayPacket::kMost> &occluded) const {
+    RTCIntersectContext context = coherent_context();
+    RTCRay8 query{};
+    const Lanes lanes = fill(rays, query);
+    rtcOccluded8(lanes.valid, state_->scene, &context, &query);
+    for (std::size_t i = 0; i < rays.count; ++i)
+        occluded[i] = query.tfar[i] < 0;
 }
 
 } // namespace tsuya

@@ -1,6 +1,7 @@
 #pragma once
 // The BVH: the one file of the renderer that knows Embree.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -14,11 +15,19 @@ namespace tsuya {
 
 // Where a ray hit a surface.
 struct Hit {
-    float distance;
+    float distance;        // infinite for none, where packets are traced
     glm::vec3 barycentric; // weights of the three vertices
     glm::vec3 face_normal; // of the triangle's winding, not normalised
     std::uint32_t object;
     std::uint32_t triangle;
+};
+
+// Rays that lie close to each other.
+struct RayPacket {
+    static constexpr std::size_t kMost = 8;
+    std::size_t count = 0;
+    std::array<glm::vec3, kMost> origin{}, direction{};
+    std::array<float, kMost> farthest{};
 };
 
 class Accelerator {
@@ -34,6 +43,9 @@ class Accelerator {
     bool intersect(const glm::vec3 &origin, const glm::vec3 &direction, float farthest,
                    Hit &hit) const;
     bool occluded(const glm::vec3 &origin, const glm::vec3 &direction, float farthest) const;
+    // The same of a packet.
+    void intersect(const RayPacket &rays, std::array<Hit, RayPacket::kMost> &hits) const;
+    void occluded(const RayPacket &rays, std::array<bool, RayPacket::kMost> &occluded) const;
 
     const std::vector<glm::vec3> &positions(std::uint32_t object) const;
 

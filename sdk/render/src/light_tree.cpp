@@ -19,35 +19,37 @@ float sin_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
 float sine_of(float cosine) { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
 
 LightBounds bounds_of(const LightRectangle &light) {
-    LightBounds b{light.corner(0), light.corner(0), light.normal(), 1,
-                  light.radiance() * light.area()};
+    glm::vec3 low = light.corner(0), high = low;
     for (int i = 1; i < 4; ++i) {
-        b.low = glm::min(b.low, light.corner(i));
-        b.high = glm::max(b.high, light.corner(i));
+        low = glm::min(low, light.corner(i));
+        high = glm::max(high, light.corner(i));
     }
-    return b;
+    return {low, high, light.normal(), 1, light.radiance() * light.area()};
 }
 
 } // namespace
 
-// [Conty] Eq. 3, with the bounding sphere of the box and without the distance below which it grows
-// no more than the sphere is wide.
+LightBounds::LightBounds(const glm::vec3 &low, const glm::vec3 &high, const glm::vec3 &axis,
+                         float cos_spread, float power)
+    : low_(low), high_(high), axis_(axis), middle_(0.5f * (low + high)),
+      radius2_(0.25f * glm::dot(high - low, high - low)), cos_spread_(cos_spread),
+      sin_spread_(sine_of(cos_spread)), power_(power) {}
+
+// [Conty] Eq. 3, with the bounding sphere of the box.
 float LightBounds::importance(const Receiver &receiver) const {
-    const glm::vec3 offset = 0.5f * (low + high) - receiver.position, diagonal = high - low;
-    const float radius2 = 0.25f * glm::dot(diagonal, diagonal),
-                distance2 = glm::dot(offset, offset);
-    if (distance2 <= radius2)
-        return power / radius2;
-    const glm::vec3 to_light = offset / std::sqrt(distance2);
-    const float sin_seen = std::sqrt(radius2 / distance2), cos_seen = sine_of(sin_seen);
+    const glm::vec3 offset = middle_ - receiver.position;
+    const float distance2 = glm::dot(offset, offset);
+    if (distance2 <= radius2_)
+        return power_ / radius2_;
+    const float per_distance2 = 1 / distance2;
+    const glm::vec3 to_light = offset * std::sqrt(per_distance2);
+    const float sin2_seen = radius2_ * per_distance2;
+    const float sin_seen = std::sqrt(sin2_seen), cos_seen = std::sqrt(1 - sin2_seen);
 
     // The least angle between where they shine and the point
-    const float cos_from_axis = -glm::dot(axis, to_light), sin_from_axis = sine_of(cos_from_axis);
-    const float sin_spread = sine_of(cos_spread);
-    const float cos_outside =
-        cos_of_difference(sin_from_axis, cos_from_axis, sin_spread, cos_spread);
-    const float sin_outside =
-        sin_of_difference(sin_from_axis, cos_from_axis, sin_spread, cos_spread);
+    const float cos_axis = -glm::dot(axis_, to_light), sin_axis = sine_of(cos_axis);
+    const float cos_outside = cos_of_difference(sin_axis, cos_axis, sin_spread_, cos_spread_);
+    const float sin_outside = sin_of_difference(sin_axis, cos_axis, sin_spread_, cos_spread_);
     const float cos_emitted = cos_of_difference(sin_outside, cos_outside, sin_seen, cos_seen);
     if (!(cos_emitted > 0))
         return 0;
@@ -56,7 +58,7 @@ float LightBounds::importance(const Receiver &receiver) const {
     if (receiver.both_sides)
         cos_received = std::abs(cos_received);
     cos_received = cos_of_difference(sine_of(cos_received), cos_received, sin_seen, cos_seen);
-    return power * cos_emitted * std::max(0.0f, cos_received) / distance2;
+    return power_ * cos_emitted * std::max(0.0f, cos_received) * per_distance2;
 }
 
 struct LightTree::Building {
@@ -89,26 +91,24 @@ void LightTree::build(Building &building, std::size_t first, std::size_t last) {
         nodes_[index] = {building.lights[*begin], 0, *begin};
         return;
     }
-    LightBounds all = building.lights[*begin];
-    const auto middle = [&](std::uint32_t i) {
-        return building.lights[i].low + building.lights[i].high;
-    };
+    const auto of = [&](std::uint32_t i) -> const LightBounds & { return building.lights[i]; };
+    const auto middle = [&](std::uint32_t i) { return of(i).low() + of(i).high(); };
+    glm::vec3 box_low = of(*begin).low(), box_high = of(*begin).high(), axis(0);
     glm::vec3 low = middle(*begin), high = low;
-    for (auto i = begin + 1; i != end; ++i) {
-        const LightBounds &b = building.lights[*i];
-        all.low = glm::min(all.low, b.low);
-        all.high = glm::max(all.high, b.high);
-        all.axis += b.axis;
-        all.power += b.power;
+    float power = 0;
+    for (auto i = begin; i != end; ++i) {
+        box_low = glm::min(box_low, of(*i).low());
+        box_high = glm::max(box_high, of(*i).high());
+        axis += of(*i).axis();
+        power += of(*i).power();
         low = glm::min(low, middle(*i));
         high = glm::max(high, middle(*i));
     }
-    const float length = glm::length(all.axis);
-    all.axis = length > 0 ? all.axis / length : glm::vec3(0, 0, 1);
-    all.cos_spread = 1;
+    const float length = glm::length(axis);
+    axis = length > 0 ? axis / length : glm::vec3(0, 0, 1);
+    float cos_spread = 1;
     for (auto i = begin; i != end; ++i)
-        all.cos_spread =
-            std::clamp(glm::dot(all.axis, building.lights[*i].axis), -1.0f, all.cos_spread);
+        cos_spread = std::clamp(glm::dot(axis, of(*i).axis()), -1.0f, cos_spread);
 
     const glm::vec3 size = high - low;
     const int side = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
@@ -121,7 +121,7 @@ void LightTree::build(Building &building, std::size_t first, std::size_t last) {
     build(building, first, half);
     const auto second = static_cast<std::uint32_t>(nodes_.size());
     build(building, half, last);
-    nodes_[index] = {all, second, 0};
+    nodes_[index] = {{box_low, box_high, axis, cos_spread, power}, second, 0};
 }
 
 std::optional<float> LightTree::first_share(std::uint32_t node, const Receiver &receiver) const {
@@ -168,7 +168,7 @@ float LightTree::probability(const Receiver &receiver, std::size_t light) const 
 }
 
 bool LightTree::crosses(const LightBounds &b, const glm::vec3 &from, const glm::vec3 &inverse) {
-    const glm::vec3 a = (b.low - from) * inverse, c = (b.high - from) * inverse;
+    const glm::vec3 a = (b.low() - from) * inverse, c = (b.high() - from) * inverse;
     const glm::vec3 nearest = glm::min(a, c), farthest = glm::max(a, c);
     const float enters = std::max({nearest.x, nearest.y, nearest.z, 0.0f});
     const float leaves = std::min({farthest.x, farthest.y, farthest.z});

@@ -21,15 +21,26 @@ struct Receiver {
 
 // Where some lights are, and where they shine to: up to a right angle from some direction within a
 // cone.
-struct LightBounds {
-    glm::vec3 low, high;
-    glm::vec3 axis;   // of the cone
-    float cos_spread; // of its half angle
-    float power;
+class LightBounds {
+  public:
+    LightBounds() = default;
+    // \param axis of the cone
+    // \param cos_spread cosine of its half angle
+    LightBounds(const glm::vec3 &low, const glm::vec3 &high, const glm::vec3 &axis,
+                float cos_spread, float power);
 
+    const glm::vec3 &low() const { return low_; }
+    const glm::vec3 &high() const { return high_; }
+    const glm::vec3 &axis() const { return axis_; }
+    float power() const { return power_; }
     // What they may give to a point at most, but for a factor that all lights share: 0 where they
     // certainly give nothing.
     float importance(const Receiver &receiver) const;
+
+  private:
+    glm::vec3 low_{}, high_{}, axis_{};
+    glm::vec3 middle_{}; // of the box, and of the sphere around it
+    float radius2_ = 0, cos_spread_ = 1, sin_spread_ = 0, power_ = 0;
 };
 
 struct ChosenLight {

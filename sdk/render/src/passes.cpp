@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -132,18 +133,29 @@ template <int K> class Passes {
 
     void render_tile(const Tile &tile, int from, int to) {
         PathTracer<K> tracer(prepared_);
-        std::vector<Channels<K>> radiance(film_.groups);
+        const auto samples = static_cast<std::size_t>(to - from);
+        std::vector<Channels<K>> radiance(samples * film_.groups);
+        std::vector<Sampler> samplers;
+        std::vector<FirstHit> first;
         std::uint64_t not_finite = 0;
         for (int y = tile.y0; y < tile.y1; ++y)
-            for (int x = tile.x0; x < tile.x1; ++x)
-                for (int s = from; s < to; ++s) {
-                    FirstHit first;
-                    tracer.trace(x, y, sampler_of(x, y, static_cast<std::uint32_t>(s)),
-                                 radiance.data(), radiance.size(),
-                                 settings_.aovs.empty() ? nullptr : &first);
-                    add_first_hit(film_, settings_, x, y, first);
-                    not_finite += add(x, y, s % 2 == 0 ? 1.0f : -1.0f, radiance) ? 0 : 1;
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                samplers.clear();
+                for (int s = from; s < to; ++s)
+                    samplers.push_back(sampler_of(x, y, static_cast<std::uint32_t>(s)));
+                first.assign(settings_.aovs.empty() ? 0 : samples, FirstHit{});
+                tracer.trace(x, y, samplers, radiance.data(), film_.groups,
+                             first.empty() ? nullptr : first.data());
+                for (const FirstHit &hit : first)
+                    add_first_hit(film_, settings_, x, y, hit);
+                for (std::size_t i = 0; i < samples; ++i) {
+                    const bool even = (static_cast<std::size_t>(from) + i) % 2 == 0;
+                    not_finite += add(x, y, even ? 1.0f : -1.0f,
+                                      std::span(radiance).subspan(i * film_.groups, film_.groups))
+                                      ? 0
+                                      : 1;
                 }
+            }
         rays_ += tracer.rays();
         not_finite_ += not_finite;
     }
@@ -158,7 +170,7 @@ template <int K> class Passes {
 
     // Adds one sample; false where it is left out because it is not finite.
     // \param sign in the film's difference
-    bool add(int x, int y, float sign, const std::vector<Channels<K>> &radiance) {
+    bool add(int x, int y, float sign, std::span<const Channels<K>> radiance) {
         float mean = 0;
         for (const Channels<K> &c : radiance)
             mean += c.mean() / static_cast<float>(radiance.size());

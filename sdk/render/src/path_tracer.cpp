@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "pixel_filter.h"
 #include "vertex.h"
@@ -33,8 +34,10 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kShadowReach = 1.0f - 1e-4f;
 // Behind as many layers of holes a ray meets nothing.
 constexpr std::uint32_t kMostHoles = 64;
-// At the camera's vertex as many lights are sampled each, and of more lights as many are chosen.
+// At the camera's vertex as many lights are sampled each.
 constexpr std::uint32_t kFewLights = 4;
+// As many are chosen there of more lights.
+constexpr std::uint32_t kChosenAtFirst = 2;
 // Number of the lone random pair that chooses lights there; those of holes stand before it.
 constexpr std::uint32_t kLightChoice = 2 * kMostHoles;
 // Russian roulette from this vertex on.
@@ -89,11 +92,6 @@ template <int K> struct PathTracer<K>::Path {
     void go_on() { sampler.go_to(++vertex); }
 };
 
-template <int K> bool PathTracer<K>::intersect(const Path &path, Hit &hit) {
-    ++rays_;
-    return scene_.accelerator.intersect(path.origin, path.direction, kInfinity, hit);
-}
-
 // What the ray from a vertex meets. After the last vertex only the lights count: where none lies in
 // the ray's direction, a hit at distance 0 stands for whatever the ray would meet.
 template <int K> bool PathTracer<K>::find_next(const Path &path, Hit &hit) {
@@ -107,7 +105,9 @@ template <int K> bool PathTracer<K>::find_next(const Path &path, Hit &hit) {
             return scene_.accelerator.occluded(path.origin, path.direction, kInfinity);
         }
     }
-    return intersect(path, hit) && (!scene_.has_holes() || pass_holes(path, false, hit));
+    ++rays_;
+    return scene_.accelerator.intersect(path.origin, path.direction, kInfinity, hit) &&
+           (!scene_.has_holes() || pass_holes(path, false, hit));
 }
 
 // From the hit on through holes, each by chance, to what the ray meets.
@@ -166,7 +166,7 @@ template <int K> bool PathTracer<K>::every_light(const Path &path) const {
 }
 
 template <int K> std::uint32_t PathTracer<K>::chosen_lights(const Path &path) const {
-    return path.vertex == 0 ? kFewLights : 1;
+    return path.vertex == 0 ? kChosenAtFirst : 1;
 }
 
 // Adds beta_n S_n.
@@ -205,14 +205,41 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
     const Weighed w = vertex.weigh(ray->to_light);
     if (!(w.f_cos.sum() > 0))
         return;
-    const float arrives =
-        transmission(vertex.ray_origin(ray->to_light), ray->to_light, ray->distance * kShadowReach);
-    if (!(arrives > 0))
-        return;
-    path.radiance[ray->group].add(
+    ShadowRay shadow{vertex.ray_origin(ray->to_light),
+                     ray->to_light,
+                     ray->distance * kShadowReach,
+                     path.radiance + ray->group,
+                     {}};
+    const Channels<K> response =
         coloured<K>(w.f_cos, colours,
-                    ray->radiance * power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf)),
-        path.throughput, arrives);
+                    ray->radiance * power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf));
+    if (path.vertex > 0 || scene_.has_holes()) {
+        const float arrives = transmission(shadow.origin, shadow.direction, shadow.distance);
+        if (arrives > 0)
+            shadow.to->add(response, path.throughput, arrives);
+        return;
+    }
+    shadow.brings.add(response, path.throughput, 1);
+    shadow_rays_.push_back(shadow);
+}
+
+template <int K> void PathTracer<K>::add_shadow_rays() {
+    for (std::size_t begin = 0; begin < shadow_rays_.size(); begin += RayPacket::kMost) {
+        const auto waiting = std::span(shadow_rays_).subspan(begin);
+        RayPacket rays{.count = std::min(waiting.size(), RayPacket::kMost)};
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            rays.origin[i] = waiting[i].origin;
+            rays.direction[i] = waiting[i].direction;
+            rays.farthest[i] = waiting[i].distance;
+        }
+        std::array<bool, RayPacket::kMost> occluded;
+        scene_.accelerator.occluded(rays, occluded);
+        rays_ += rays.count;
+        for (std::size_t i = 0; i < rays.count; ++i)
+            if (!occluded[i])
+                waiting[i].to->add(waiting[i].brings, 1);
+    }
+    shadow_rays_.clear();
 }
 
 // Adds beta_n M_n; the path's throughput is beta_{n+1} already, but for the roulette.
@@ -249,21 +276,39 @@ template <int K> bool PathTracer<K>::survives(Path &path) const {
 }
 
 template <int K>
-void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *radiance,
+void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Channels<K> *radiance,
                           std::size_t groups, FirstHit *first) {
-    std::fill_n(radiance, groups, Channels<K>{});
-    Path path{.sampler = sampler, .radiance = radiance};
+    std::fill_n(radiance, samplers.size() * groups, Channels<K>{});
+    for (std::size_t begin = 0; begin < samplers.size(); begin += RayPacket::kMost) {
+        // Camera rays through samples of the pixel filter
+        RayPacket rays{.count = std::min(samplers.size() - begin, RayPacket::kMost)};
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            const glm::vec2 place = filter_sample(samplers[begin + i].pair(Purpose::pixel));
+            rays.origin[i] = scene_.eye;
+            rays.direction[i] = scene_.camera_direction(static_cast<float>(x) + 0.5f + place.x,
+                                                        static_cast<float>(y) + 0.5f + place.y);
+            rays.farthest[i] = kInfinity;
+        }
+        std::array<Hit, RayPacket::kMost> hits;
+        scene_.accelerator.intersect(rays, hits);
+        rays_ += rays.count;
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            Path path{.sampler = samplers[begin + i],
+                      .radiance = radiance + (begin + i) * groups,
+                      .origin = scene_.eye,
+                      .direction = rays.direction[i]};
+            follow(path, hits[i], first ? first + begin + i : nullptr);
+        }
+    }
+    add_shadow_rays();
+}
 
-    // Camera ray through a sample of the pixel filter
-    const glm::vec2 place = filter_sample(path.random(Purpose::pixel));
-    path.origin = scene_.eye;
-    path.direction = scene_.camera_direction(static_cast<float>(x) + 0.5f + place.x,
-                                             static_cast<float>(y) + 0.5f + place.y);
-    Hit hit;
-    if (!intersect(path, hit) || (scene_.has_holes() && !pass_holes(path, true, hit))) {
+// The path from where its camera ray hit.
+template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *first) {
+    if (!(hit.distance < kInfinity) || (scene_.has_holes() && !pass_holes(path, true, hit))) {
         if (scene_.lights.has_environment() && scene_.lights.environment_visible()) {
             const LightMet met = scene_.lights.meet_environment(path.direction);
-            radiance[met.group] = Channels<K>::filled(met.radiance);
+            path.radiance[met.group] = Channels<K>::filled(met.radiance);
         }
         return;
     }
@@ -272,15 +317,14 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         // Vertex at the hit
         const SurfacePoint point = scene_.point(path.direction, hit);
         if (!point.is_finite())
-            return spoil(radiance);
+            return spoil(path.radiance);
         if (path.vertex == 0 && first)
             *first = {true, hit.distance, point.frame.normal, point.warp, hit.object};
         const Vertex vertex(scene_, point, path.direction);
-        Colours printed;
-        const bool is_printed = scene_.is_printed(point);
-        if (is_printed)
+        std::optional<Colours> printed;
+        if (scene_.is_printed(point))
             printed = scene_.printed(point, hit.distance, path.vertex == 0);
-        const Colours &colours = is_printed ? printed : scene_.colours[point.colours];
+        const Colours &colours = printed ? *printed : scene_.colours[point.colours];
 
         // Direct light, found by sampling the lights
         sample_lights(path, vertex, colours);
@@ -297,7 +341,7 @@ void PathTracer<K>::trace(int x, int y, const Sampler &sampler, Channels<K> *rad
         path.origin = vertex.ray_origin(next->to_light);
         path.direction = next->to_light;
         if (!std::isfinite(glm::dot(path.origin, path.direction)))
-            return spoil(radiance);
+            return spoil(path.radiance);
 
         // Direct light, met by that ray
         const bool found = find_next(path, hit);

@@ -2,6 +2,8 @@
 // The path tracer: one sample of one pixel.
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "channels.h"
 #include "prepared_scene.h"
@@ -23,17 +25,26 @@ template <int K> class PathTracer {
   public:
     explicit PathTracer(const PreparedScene &scene) : scene_(scene) {}
 
-    // Transport of each light group through a random point of a pixel.
-    // \param radiance `groups` values, set
-    // \param first set where the camera ray hits; may be null
-    void trace(int x, int y, const Sampler &sampler, Channels<K> *radiance, std::size_t groups,
-               FirstHit *first);
+    // Transport of each light group through random points of a pixel.
+    // \param samplers one a sample; a packet of them is traced together
+    // \param radiance for each sample `groups` values, set
+    // \param first for each sample, set where the camera ray hits; may be null
+    void trace(int x, int y, std::span<const Sampler> samplers, Channels<K> *radiance,
+               std::size_t groups, FirstHit *first);
     // Traced so far.
     std::uint64_t rays() const { return rays_; }
 
   private:
     struct Path;
-    bool intersect(const Path &path, Hit &hit);
+    // A ray to a light, and what it brings where nothing is in its way.
+    struct ShadowRay {
+        glm::vec3 origin, direction;
+        float distance;
+        Channels<K> *to;
+        Channels<K> brings;
+    };
+    void follow(Path &path, Hit &hit, FirstHit *first);
+    void add_shadow_rays();
     bool find_next(const Path &path, Hit &hit);
     bool pass_holes(const Path &path, bool from_camera, Hit &hit);
     float transmission(glm::vec3 origin, const glm::vec3 &direction, float distance);
@@ -48,6 +59,7 @@ template <int K> class PathTracer {
     bool survives(Path &path) const;
 
     const PreparedScene &scene_;
+    std::vector<ShadowRay> shadow_rays_{}; // of the camera's vertices, to be traced in packets
     std::uint64_t rays_ = 0;
 };
 
