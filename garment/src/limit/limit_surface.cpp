@@ -126,17 +126,6 @@ glm::dvec3 centre_of(const std::vector<glm::dvec3> &positions) {
 
 } // namespace
 
-bool LimitSample::normal(glm::dvec3 &n) const {
-    // Squared sine of the angle between the tangents below which they count as parallel.
-    constexpr double kParallel = 1e-16;
-    n = glm::cross(p_u, p_v);
-    const double length2 = glm::dot(n, n);
-    if (!(length2 > kParallel * glm::dot(p_u, p_u) * glm::dot(p_v, p_v)) || !(length2 > 0.0))
-        return false;
-    n /= std::sqrt(length2);
-    return true;
-}
-
 bool LimitSample::cloth(glm::dvec3 &dp_du, glm::dvec3 &dp_dv) const {
     // Determinant over the squared size of the derivatives below which a UV has no area.
     constexpr double kDegenerate = 1e-6;

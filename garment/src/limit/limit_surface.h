@@ -2,6 +2,7 @@
 /// \file
 /// The limit surface of a control mesh as something that can be evaluated at any point of any face.
 
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
@@ -26,6 +27,17 @@ struct LimitSample {
     /// Derivatives by UV; false where the UV is degenerate.
     bool cloth(glm::dvec3 &dp_du, glm::dvec3 &dp_dv) const;
 };
+
+inline bool LimitSample::normal(glm::dvec3 &n) const {
+    // Squared sine of the angle between the tangents below which they count as parallel.
+    constexpr double kParallel = 1e-16;
+    n = glm::cross(p_u, p_v);
+    const double length2 = glm::dot(n, n);
+    if (!(length2 > kParallel * glm::dot(p_u, p_u) * glm::dot(p_v, p_v)) || !(length2 > 0.0))
+        return false;
+    n /= std::sqrt(length2);
+    return true;
+}
 
 /// Second derivatives of the position by the face's own coordinates.
 struct LimitCurvature {
