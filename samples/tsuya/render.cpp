@@ -85,7 +85,7 @@ struct Render final : Command {
                 "killed leaves its last checkpoint. SIGUSR1 writes the picture so far to OUT.exr, "
                 "and the render goes on. The lamps of the scene's "
                 "[output] give OUT-LAMP.png. With --frames, "
-                "--resume keeps frames whose results are newer than the files of the scene.");
+                "--resume keeps frames that are complete and of the same scene and settings.");
     }
 
     Status run(Console &console) override {
@@ -119,10 +119,10 @@ struct Render final : Command {
         KeptMaterials kept;
         const auto count = static_cast<std::size_t>(frames.value_or(1));
         for (frame_ = 0; frame_ < count; ++frame_) {
-            if (is_done(file))
-                continue;
             if (frame_ > 0)
                 built.frames.show(frame_, built.scene);
+            if (is_done(file, built.scene, settings))
+                continue;
             settings.checkpoint = checkpoint();
             const Status status = render_frame(file, built.scene, settings, kept, console);
             if (status != kDone)
@@ -147,20 +147,33 @@ struct Render final : Command {
         return kInterrupted;
     }
 
-    /// A frame of a sequence that is to be resumed and was finished: its results are there, and
-    /// newer than all that the scene names.
-    bool is_done(const scene::SceneFile &file) const {
+    /// A frame of a sequence that is to be resumed and was finished: its render is there, complete
+    /// and of the same scene and settings, and its other results are no older than it and the scene.
+    bool is_done(const scene::SceneFile &file, const Scene &shown,
+                 const RenderSettings &settings) const {
         if (!resume || !frames || fs::exists(checkpoint()))
             return false;
         std::error_code code;
+        const fs::path exr = transport(frame_);
+        const fs::file_time_type newest =
+            std::max(fs::last_write_time(scene, code), fs::last_write_time(exr, code));
         bool done = true;
-        fs::file_time_type newest = fs::last_write_time(scene, code);
-        for (const fs::path &read : file.files)
-            newest = std::max(newest, fs::last_write_time(read, code));
         for_each_place_of(file, frame_, [&](const fs::path &place) {
-            done = done && fs::exists(place) && fs::last_write_time(place, code) >= newest;
+            done = done && fs::exists(place) &&
+                   (place == exr || fs::last_write_time(place, code) >= newest);
         });
-        return done;
+        return done && key_of(exr) == render_key(shown, settings);
+    }
+
+    /// Of a render in a file; empty where there is none.
+    static std::string key_of(const fs::path &exr) {
+        try {
+            const SpectralImage image = read_spectral_exr(exr);
+            const auto key = image.metadata.find("render_key");
+            return key == image.metadata.end() ? "" : key->second;
+        } catch (const Error &) {
+            return "";
+        }
     }
 
     static void explain_plan(const scene::BuiltScene &built, const RenderSettings &settings) {

@@ -53,6 +53,8 @@ TEST(RenderCommand, RendersFramesAndGoesOnWithThem) {
     moved.replace(moved.find("0.6 0\n"), 5, "0.6 0.2");
     scratch.write("moved.obj", moved);
     text.insert(text.find("fabric = \"silk\""), "frames = [\"moved.obj\"]\n");
+    // Without an eye the camera depends on all frames
+    text.insert(text.find("width"), "eye = [0, 0.3, 2]\ntarget = [0, 0.3, 0]\n");
     scratch.write("small.scene.toml", text);
     const std::vector<std::string> call{
         "render",   scene_file, "-o",      (scratch / "a.exr").string(),
@@ -68,7 +70,7 @@ TEST(RenderCommand, RendersFramesAndGoesOnWithThem) {
     EXPECT_TRUE(fs::exists(scratch / "s-0001.json"));
     EXPECT_FALSE(fs::exists(scratch / "a.exr"));
 
-    // What is there is kept, what is missing or older than the scene is rendered again
+    // What is there is kept, what is missing or of another scene or settings is rendered again
     std::vector<std::string> again = call;
     again.emplace_back("--resume");
     EXPECT_EQ(run(scratch, again).out, "");
@@ -76,8 +78,15 @@ TEST(RenderCommand, RendersFramesAndGoesOnWithThem) {
     fs::remove(scratch / "a-A-0001.png");
     EXPECT_EQ(run(scratch, again).out, all.substr(all.find((scratch / "a-0001.exr").string())));
     EXPECT_EQ(read_file(scratch / "a-A-0001.png"), second);
-    fs::last_write_time(scratch / "moved.obj", fs::file_time_type::clock::now());
-    EXPECT_EQ(run(scratch, again).out, all);
+    moved.replace(moved.find("0.6 0.2"), 7, "0.6 0.1");
+    scratch.write("moved.obj", moved);
+    EXPECT_EQ(run(scratch, again).out, all.substr(all.find((scratch / "a-0001.exr").string())));
+    std::vector<std::string> other = again;
+    for (const char *const option : {"--spp", "--seed"}) {
+        other.insert(other.end(), {option, "5"});
+        EXPECT_EQ(run(scratch, other).out, all) << option;
+        EXPECT_EQ(run(scratch, other).out, "") << option;
+    }
 
     const Outcome more =
         run(scratch, {"render", scene_file, "-o", (scratch / "b.exr").string(), "--frames", "3"});

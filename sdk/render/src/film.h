@@ -79,4 +79,7 @@ struct Film {
 // What must be the same for a render to go on: hashes of scene and settings.
 detail::Fingerprint fingerprint(const Scene &scene, const RenderSettings &settings);
 
+// The render_key of what has that fingerprint.
+std::string render_key(const detail::Fingerprint &fingerprint, const StopRule &stop);
+
 } // namespace tsuya

@@ -9,7 +9,7 @@ FilmKeeper::FilmKeeper(const Scene &scene, const RenderSettings &settings, Film 
     : settings_(settings), film_(film), result_(std::move(result)) {
     if (settings.checkpoint.empty())
         return;
-    fingerprint_ = fingerprint(scene, settings);
+    fingerprint_ = tsuya::fingerprint(scene, settings);
     if (!settings.resume || !std::filesystem::exists(settings.checkpoint))
         return;
     load_checkpoint(film, fingerprint_, settings.checkpoint);

@@ -25,6 +25,7 @@ class FilmKeeper {
     void serve();
     // Saves what is not saved yet.
     void finish();
+    const detail::Fingerprint &fingerprint() const { return fingerprint_; }
     // Why the last checkpoint could not be written.
     const std::optional<Problem> &problem() const { return problem_; }
 

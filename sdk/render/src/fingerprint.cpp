@@ -1,3 +1,7 @@
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+
 #include "film.h"
 #include "tsuya/sdk/detail/scene_fields.h"
 
@@ -8,6 +12,23 @@ detail::Fingerprint fingerprint(const Scene &scene, const RenderSettings &settin
     of_scene.add(scene);
     of_settings.add(settings);
     return {.input = of_scene.result(), .settings = of_settings.result()};
+}
+
+std::string render_key(const detail::Fingerprint &fingerprint, const StopRule &stop) {
+    detail::Hasher of_stop;
+    of_stop.value(stop.samples_per_pixel);
+    for (const std::optional<double> &bound : {stop.relative_error, stop.seconds}) {
+        of_stop.value(bound.has_value());
+        of_stop.value(bound.value_or(0));
+    }
+    std::array<char, 49> digits{};
+    std::snprintf(digits.data(), digits.size(), "%016" PRIx64 "%016" PRIx64 "%016" PRIx64,
+                  fingerprint.input, fingerprint.settings, of_stop.result());
+    return digits.data();
+}
+
+std::string render_key(const Scene &scene, const RenderSettings &settings) {
+    return render_key(fingerprint(scene, settings), settings.stop);
 }
 
 } // namespace tsuya

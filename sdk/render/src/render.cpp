@@ -128,6 +128,8 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     keeper.finish();
     RenderResult result = result_so_far();
     result.stats.interrupted = interrupted;
+    if (!interrupted)
+        result.image.metadata["render_key"] = render_key(keeper.fingerprint(), settings.stop);
     for (const Fabric &fabric : scene.fabrics)
         for (Problem &warning : fabric_warnings(fabric, "fabrics." + fabric.name))
             result.warnings.push_back(std::move(warning));
