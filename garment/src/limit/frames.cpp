@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "limit/renew_frames.h"
-#include "mesh/distance.h"
 #include "mesh/stop.h"
-#include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::garment {
@@ -69,69 +67,15 @@ void invent_frames(const LimitMesh &mesh, double angle, const std::vector<bool> 
     }
 }
 
-/// Derivatives by UV at the vertices of seams, from the triangles of either side, by their area.
-/// There the places follow the rules of the inside and the UVs those of an edge: among triangles of
-/// all shapes the limit derivatives of the two do not go together.
-struct SeamDerivatives {
-    static constexpr std::uint32_t kNone = 0xffffffff;
-    std::vector<std::uint32_t> slot; ///< of each vertex, into `p_u` and `p_v`; kNone off the seams
-    std::vector<glm::dvec3> p_u, p_v;
-};
-
-SeamDerivatives derivatives_at_seams(const LimitMesh &mesh) {
-    constexpr std::uint32_t kNone = SeamDerivatives::kNone;
-    SeamDerivatives sums{std::vector<std::uint32_t>(mesh.position.size(), kNone), {}, {}};
-    std::uint32_t count = 0;
-    for (std::uint32_t v = 0; v < mesh.place.size(); ++v)
-        if (mesh.place[v] != v)
-            for (const std::uint32_t side : {v, mesh.place[v]})
-                if (sums.slot[side] == kNone)
-                    sums.slot[side] = count++;
-    sums.p_u.assign(count, glm::dvec3(0.0));
-    sums.p_v.assign(count, glm::dvec3(0.0));
-    if (count == 0)
-        return sums;
-    for (const glm::uvec3 &t : mesh.triangle) {
-        const glm::uvec3 slot(sums.slot[t.x], sums.slot[t.y], sums.slot[t.z]);
-        if (slot == glm::uvec3(kNone))
-            continue;
-        const glm::dvec3 e = mesh.position[t.y] - mesh.position[t.x];
-        const glm::dvec3 f = mesh.position[t.z] - mesh.position[t.x];
-        const glm::dvec2 a(mesh.uv[t.y] - mesh.uv[t.x]), b(mesh.uv[t.z] - mesh.uv[t.x]);
-        const double side = a.x * b.y - a.y * b.x < 0.0 ? -1.0 : 1.0;
-        for (int c = 0; c < 3; ++c)
-            if (slot[c] != kNone) {
-                sums.p_u[slot[c]] += side * (b.y * e - a.y * f);
-                sums.p_v[slot[c]] += side * (a.x * f - b.x * e);
-            }
-    }
-    return sums;
-}
-
-/// Two directions of which the second is known and lies too far from the first. The triangles are
-/// of the first order alone, so where both agree the limit derivative is the better one.
-bool are_apart(const glm::dvec3 &limit, const glm::dvec3 &of_triangles) {
-    constexpr double kMost = 6.0 * kDegree;
-    return of_triangles != glm::dvec3(0.0) && !(angle_between(limit, of_triangles) <= kMost);
-}
-
 /// Frames from the derivatives; `valid` tells where that was possible.
 void frames_from_uv(const LimitMesh &mesh, const std::vector<glm::dvec2> &grain, Surface &s,
                     std::vector<bool> &valid, std::vector<bool> &mirrored_at, FrameReport &report,
                     const Progress &progress) {
-    const SeamDerivatives seams = derivatives_at_seams(mesh);
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
         look_at_stop(progress, v);
         const double c = grain[mesh.panel[v]].x, d = grain[mesh.panel[v]].y;
         const glm::dvec3 n(mesh.normal[v]);
-        glm::dvec3 p_u(mesh.dp_du[v]), p_v(mesh.dp_dv[v]);
-        if (seams.slot[v] != SeamDerivatives::kNone) {
-            const glm::dvec3 &q_u = seams.p_u[seams.slot[v]], &q_v = seams.p_v[seams.slot[v]];
-            if (are_apart(p_u, q_u) || are_apart(p_v, q_v)) {
-                p_u = q_u;
-                p_v = q_v;
-            }
-        }
+        const glm::dvec3 p_u(mesh.dp_du[v]), p_v(mesh.dp_dv[v]);
         // The yarns' own coordinates are the UV turned by the grain.
         const bool mirrored = glm::dot(glm::cross(p_u, p_v), n) < 0.0;
         glm::dvec3 weft = c * p_u + d * p_v;

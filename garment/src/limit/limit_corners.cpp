@@ -116,6 +116,8 @@ void LimitCorners::apply(const std::vector<glm::dvec3> &positions, const glm::dv
             sample.p_u += w.tangents.x * p;
             sample.p_v += w.tangents.y * p;
         }
+        sample.cloth_u = sample.p_u;
+        sample.cloth_v = sample.p_v;
         glm::dvec3 normal, dp_du, dp_dv;
         if (!sample.normal(normal))
             continue;

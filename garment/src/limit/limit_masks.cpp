@@ -116,6 +116,8 @@ std::optional<LimitSample> LimitMasks::sample(const LimitSurface &surface, int v
         sample.t_u += w.tangents.x * t;
         sample.t_v += w.tangents.y * t;
     }
+    sample.cloth_u = sample.p_u;
+    sample.cloth_v = sample.p_v;
     return sample;
 }
 

@@ -17,11 +17,12 @@ struct Worker {
     std::vector<std::uint32_t> vertices;
 };
 
-/// The inverse of the UV's derivatives as rows: dP/du = x P_u + y P_v, dP/dv = z P_u + w P_v.
+/// The inverse of the UV's derivatives as rows: dP/du = x C_u + y C_v, dP/dv = z C_u + w C_v of the
+/// cloth's C_u, C_v.
 glm::dvec4 cloth_of(const LimitSample &sample) {
     LimitSample unit = sample; // the chain rule applied to unit derivatives
-    unit.p_u = {1, 0, 0};
-    unit.p_v = {0, 1, 0};
+    unit.cloth_u = {1, 0, 0};
+    unit.cloth_v = {0, 1, 0};
     glm::dvec3 dp_du, dp_dv;
     if (!unit.cloth(dp_du, dp_dv))
         return glm::dvec4(0.0);
@@ -56,13 +57,17 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
                 static_cast<std::size_t>(worker.scratch.surface.GetNumControlPoints()));
             worker.scratch.surface.GetControlPointIndices(control.data());
             face.control.assign(control.begin(), control.end());
-            const std::size_t n = control.size(), count = first_[f + 1] - first_[f];
-            Weights weight(3 * n * count), rows(3 * n);
+            if (!worker.scratch.cloth_points.empty())
+                face.cloth.assign(worker.scratch.cloth_control.begin(),
+                                  worker.scratch.cloth_control.end());
+            const std::size_t n = control.size(), m = face.cloth.size();
+            const std::size_t count = first_[f + 1] - first_[f];
+            Weights weight((3 * n + 2 * m) * count), rows(3 * n), alone(3 * m), unused(n);
             for (std::size_t i = 0; i < worker.vertices.size(); ++i) {
                 const std::uint32_t v = worker.vertices[i];
                 if (v < first_[f])
                     continue;
-                const glm::dvec2 at = pattern.coordinate[i];
+                glm::dvec2 at = pattern.coordinate[i];
                 double *const w = rows.data();
                 worker.scratch.surface.EvaluateStencil(&at.x, w, w + n, w + 2 * n);
                 LimitSample sample = surface.sample(at, worker.scratch);
@@ -70,16 +75,20 @@ LimitStencils::LimitStencils(const LimitSurface &surface, const FacePatterns &pa
                 if (!sample.normal(n_unused) ||
                     (worker.scratch.has_uv && !sample.cloth(u_unused, v_unused))) {
                     // As Subdivider does: derivatives a little further inside the face.
-                    const glm::dvec2 inside = surface.nudged(at, worker.scratch);
-                    std::vector<double> unused(n);
-                    worker.scratch.surface.EvaluateStencil(&inside.x, unused.data(), w + n,
-                                                           w + 2 * n);
-                    sample = surface.sample(inside, worker.scratch);
+                    at = surface.nudged(at, worker.scratch);
+                    worker.scratch.surface.EvaluateStencil(&at.x, unused.data(), w + n, w + 2 * n);
+                    sample = surface.sample(at, worker.scratch);
                 }
                 if (worker.scratch.has_uv)
-                    cloth_[v] = cloth_of(sample);
+                    cloth_[v] = {cloth_of(sample), sample.alone};
                 for (std::size_t k = 0; k < 3 * n; ++k)
                     weight[(k % n * 3 + k / n) * count + v - first_[f]] = w[k];
+                if (m == 0)
+                    continue;
+                double *const a = alone.data();
+                worker.scratch.uv_surface.EvaluateStencil(&at.x, a, a + m, a + 2 * m);
+                for (std::size_t k = 0; k < 2 * m; ++k)
+                    weight[(3 * n + k % m * 2 + k / m) * count + v - first_[f]] = a[m + k];
             }
             const std::lock_guard lock(sharing);
             face.weight = &*weights_.insert(std::move(weight)).first;
@@ -103,17 +112,22 @@ void LimitStencils::apply_face(std::size_t f, const PolygonMesh &mesh, const glm
         return;
     // Sums over the control points of positions, and of both derivatives, side by side: loops of
     // independent sums, which the compiler makes wide.
-    const std::size_t count = first_[f + 1] - first_[f], row = 3 * count;
-    sums.assign(3 * row, 0.0);
-    double *const x = sums.data(), *const y = x + row, *const z = y + row;
+    const std::size_t count = first_[f + 1] - first_[f], all = 5 * count;
+    sums.assign(3 * all, 0.0);
+    double *const x = sums.data(), *const y = x + all, *const z = y + all;
     const double *w = face.weight->data();
-    for (const std::uint32_t control : face.control) {
-        const glm::dvec3 p = mesh.position[control] - centre;
-        add_weighted(x, w, p.x, row);
-        add_weighted(y, w, p.y, row);
-        add_weighted(z, w, p.z, row);
-        w += row;
-    }
+    const auto add = [&](const std::vector<std::uint32_t> &controls, std::size_t at,
+                         std::size_t row) {
+        for (const std::uint32_t control : controls) {
+            const glm::dvec3 p = mesh.position[control] - centre;
+            add_weighted(x + at, w, p.x, row);
+            add_weighted(y + at, w, p.y, row);
+            add_weighted(z + at, w, p.z, row);
+            w += row;
+        }
+    };
+    add(face.control, 0, 3 * count);
+    add(face.cloth, 3 * count, 2 * count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t v = first_[f] + i, u = count + i, t = u + count;
         const LimitSample sample{
@@ -125,9 +139,11 @@ void LimitStencils::apply_face(std::size_t f, const PolygonMesh &mesh, const glm
         out.normal[v] = glm::vec3(normal);
         if (cloth_.empty())
             continue;
-        const glm::dvec4 &c = cloth_[v];
-        out.dp_du[v] = glm::vec3(c.x * sample.p_u + c.y * sample.p_v);
-        out.dp_dv[v] = glm::vec3(c.z * sample.p_u + c.w * sample.p_v);
+        const auto &[c, alone] = cloth_[v];
+        const std::size_t a = alone ? t + count : u, b = a + count;
+        const glm::dvec3 cloth_u(x[a], y[a], z[a]), cloth_v(x[b], y[b], z[b]);
+        out.dp_du[v] = glm::vec3(c.x * cloth_u + c.y * cloth_v);
+        out.dp_dv[v] = glm::vec3(c.z * cloth_u + c.w * cloth_v);
     }
 }
 

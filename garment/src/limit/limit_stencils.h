@@ -22,11 +22,13 @@ class LimitStencils {
 
   private:
     /// For each control point of a face, its weights in the positions of the face's vertices, then
-    /// in both derivatives of each. Faces that are regular and cut alike share one, which keeps it
+    /// in both derivatives of each; then for each control point of the cloth alone its weights in
+    /// both derivatives. Faces that are regular and cut alike share one, which keeps it
     /// in the cache.
     using Weights = std::vector<double>;
     struct Face {
         std::vector<std::uint32_t> control;
+        std::vector<std::uint32_t> cloth{}; ///< empty where no UVs part
         const Weights *weight = nullptr;
     };
     /// \param sums scratch
@@ -36,7 +38,11 @@ class LimitStencils {
     std::set<Weights> weights_; ///< its elements do not move
     std::vector<Face> face_;
     std::vector<std::uint32_t> first_; ///< first vertex of each face
-    std::vector<glm::dvec4> cloth_;    ///< per vertex: u and v by the face's coordinates, inverted
+    struct Cloth {
+        glm::dvec4 rows{0.0}; ///< u and v by the face's coordinates, inverted
+        bool alone = false;   ///< of the derivatives of the panel alone
+    };
+    std::vector<Cloth> cloth_; ///< per vertex
 };
 
 } // namespace tsuya::garment

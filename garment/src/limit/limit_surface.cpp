@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
 
 #include <opensubdiv/far/topologyDescriptor.h>
 
@@ -74,18 +77,52 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
                          "mesh", "expected fewer than " + std::to_string(kMaxValence)});
 }
 
+/// UVs as values that one vertex has each: an index that several vertices share becomes more.
+struct UvValues {
+    std::vector<int> of_corner;
+    std::vector<glm::dvec2> uv;
+    std::vector<std::uint32_t> vertex;
+};
+
+UvValues make_uv_values(const PolygonMesh &mesh) {
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    UvValues values{.of_corner = std::vector<int>(mesh.corner_uv.size()),
+                    .uv = mesh.uv,
+                    .vertex = std::vector<std::uint32_t>(mesh.uv.size() + 1, kNone)};
+    values.uv.emplace_back(0.0); // of all corners without UV
+    std::map<std::pair<std::uint32_t, std::int32_t>, int> shared;
+    for (std::size_t c = 0; c < mesh.corner_uv.size(); ++c) {
+        const std::int32_t uv = mesh.corner_uv[c];
+        const std::uint32_t v = mesh.corner_position[c];
+        if (uv < 0) {
+            values.of_corner[c] = static_cast<int>(mesh.uv.size());
+            continue;
+        }
+        std::uint32_t &vertex = values.vertex[static_cast<std::size_t>(uv)];
+        if (vertex == kNone)
+            vertex = v;
+        values.of_corner[c] = uv;
+        if (vertex == v)
+            continue;
+        const auto [it, added] = shared.try_emplace({v, uv}, static_cast<int>(values.uv.size()));
+        values.of_corner[c] = it->second;
+        if (added) {
+            values.uv.push_back(mesh.uv[static_cast<std::size_t>(uv)]);
+            values.vertex.push_back(v);
+        }
+    }
+    return values;
+}
+
 Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,
-                     Sdc::SchemeType scheme) {
+                     Sdc::SchemeType scheme, const UvValues &uvs) {
     std::vector<int> sizes(mesh.face_count());
     for (std::size_t f = 0; f < sizes.size(); ++f)
         sizes[f] = static_cast<int>(mesh.face_size(f));
     const std::vector<int> vertices(mesh.corner_position.begin(), mesh.corner_position.end());
-    std::vector<int> uvs(mesh.corner_uv.begin(), mesh.corner_uv.end());
-    for (int &uv : uvs) // corners without UV share one value behind the others
-        uv = uv < 0 ? static_cast<int>(mesh.uv.size()) : uv;
     Far::TopologyDescriptor::FVarChannel channel;
-    channel.numValues = static_cast<int>(mesh.uv.size()) + 1;
-    channel.valueIndices = uvs.data();
+    channel.numValues = static_cast<int>(uvs.uv.size());
+    channel.valueIndices = uvs.of_corner.data();
     const Creases creases = find_creases(mesh, options);
 
     Far::TopologyDescriptor descriptor;
@@ -115,6 +152,34 @@ Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,
     return refiner;
 }
 
+/// The middle of a face or of its sub-faces, and what lies about it.
+std::vector<glm::dvec2> spread_points(const Bfr::Parameterization &p) {
+    std::vector<glm::dvec2> points;
+    const int corners = p.GetFaceSize();
+    for (int c = 0; c < corners; ++c) {
+        glm::dvec2 at;
+        if (p.HasSubFaces()) {
+            const glm::dvec2 middle(0.5);
+            p.ConvertNormalizedSubFaceToCoord(c, &middle.x, &at.x);
+        } else {
+            constexpr double kInside = 0.05;
+            glm::dvec2 corner, centre;
+            p.GetVertexCoord(c, &corner.x);
+            p.GetCenterCoord(&centre.x);
+            at = corner + kInside * (centre - corner);
+        }
+        points.push_back(at);
+    }
+    return points;
+}
+
+/// Of two derivatives by UV.
+double relative_distance(const glm::dmat2x3 &a, const glm::dmat2x3 &b) {
+    const glm::dmat2x3 d = a - b;
+    const double size2 = glm::dot(b[0], b[0]) + glm::dot(b[1], b[1]);
+    return size2 > 0.0 ? std::sqrt((glm::dot(d[0], d[0]) + glm::dot(d[1], d[1])) / size2) : 0.0;
+}
+
 glm::dvec3 centre_of(const std::vector<glm::dvec3> &positions) {
     glm::dvec3 lower = positions.front(), upper = lower;
     for (const glm::dvec3 &p : positions) {
@@ -134,8 +199,8 @@ bool LimitSample::cloth(glm::dvec3 &dp_du, glm::dvec3 &dp_dv) const {
     if (!(std::abs(det) > kDegenerate * size2))
         return false;
     // The chain rule through the face's own coordinates, which are Bfr's. [Bfr] Parameterization
-    dp_du = (p_u * t_v.y - p_v * t_u.y) / det;
-    dp_dv = (p_v * t_u.x - p_u * t_v.x) / det;
+    dp_du = (cloth_u * t_v.y - cloth_v * t_u.y) / det;
+    dp_dv = (cloth_v * t_u.x - cloth_u * t_v.x) / det;
     return true;
 }
 
@@ -146,15 +211,16 @@ LimitSurface::LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &opti
     check_indices(mesh, "mesh");
     check_input(mesh, options);
     scheme_ = choose_scheme(mesh, options.scheme);
-    refiner_ = make_refiner(mesh, options, scheme_);
+    UvValues uvs = make_uv_values(mesh);
+    refiner_ = make_refiner(mesh, options, scheme_, uvs);
     look_at_stop(progress);
     Factory::Options factory_options;
     factory_options.SetApproxLevelSmooth(kApproximationLevel);
     factory_options.SetApproxLevelSharp(kSharpApproximationLevel);
     factory_ = std::make_unique<Factory>(*refiner_, factory_options);
     set_positions(mesh.position);
-    uv_ = mesh.uv;
-    uv_.emplace_back(0.0); // of corners without UV
+    uv_ = std::move(uvs.uv);
+    uv_vertex_ = std::move(uvs.vertex);
 }
 
 void LimitSurface::set_positions(const std::vector<glm::dvec3> &positions) {
@@ -178,6 +244,49 @@ void LimitSurface::prepare(std::size_t face, Scratch &s) const {
         s.uv_surface.PreparePatchPoints(&uv_[0].x, 2, s.uv_points.data(), 2);
     }
     s.has_uv = count > 0 && garment::has_uv(mesh_, face);
+    s.cloth_points.clear();
+    if (s.has_uv)
+        prepare_cloth(s);
+}
+
+void LimitSurface::prepare_cloth(Scratch &s) const {
+    s.control.resize(static_cast<std::size_t>(s.surface.GetNumControlPoints()));
+    s.surface.GetControlPointIndices(s.control.data());
+    s.cloth_control.resize(static_cast<std::size_t>(s.uv_surface.GetNumControlPoints()));
+    s.uv_surface.GetControlPointIndices(s.cloth_control.data());
+    for (int &value : s.cloth_control)
+        value = static_cast<int>(uv_vertex_[static_cast<std::size_t>(value)]);
+    if (s.cloth_control == s.control)
+        return;
+    for (const int v : s.cloth_control) {
+        const glm::dvec3 &p = relative_[static_cast<std::size_t>(v)];
+        s.cloth_points.insert(s.cloth_points.end(), {p.x, p.y, p.z});
+    }
+    s.cloth_points.resize(3 * static_cast<std::size_t>(s.uv_surface.GetNumPatchPoints()));
+    s.uv_surface.ComputePatchPoints(s.cloth_points.data(), 3);
+
+    // On an even grid what a side errs by is what its derivatives change by over the face.
+    constexpr double kRoom = 2.0;
+    std::vector<glm::dmat2x3> seen;
+    for (const glm::dvec2 &at : spread_points(s.surface.GetParameterization())) {
+        LimitSample sample;
+        glm::dmat2x3 dp;
+        s.uv_surface.Evaluate(&at.x, s.uv_points.data(), 2, &sample.t.x, &sample.t_u.x,
+                              &sample.t_v.x);
+        if (take_alone(at, s, sample, dp))
+            seen.push_back(dp);
+    }
+    s.one_sided = 0.0;
+    for (const glm::dmat2x3 &dp : seen)
+        s.one_sided = std::max(s.one_sided, kRoom * relative_distance(dp, seen.front()));
+}
+
+bool LimitSurface::take_alone(const glm::dvec2 &at, const Scratch &s, LimitSample &sample,
+                              glm::dmat2x3 &dp) {
+    glm::dvec3 unused;
+    s.uv_surface.Evaluate(&at.x, s.cloth_points.data(), 3, &unused.x, &sample.cloth_u.x,
+                          &sample.cloth_v.x);
+    return sample.cloth(dp[0], dp[1]);
 }
 
 LimitSample LimitSurface::sample(const glm::dvec2 &at, const Scratch &s) const {
@@ -185,6 +294,15 @@ LimitSample LimitSurface::sample(const glm::dvec2 &at, const Scratch &s) const {
     s.surface.Evaluate(&at.x, s.points.data(), 3, &r.p.x, &r.p_u.x, &r.p_v.x);
     if (!mesh_.uv.empty())
         s.uv_surface.Evaluate(&at.x, s.uv_points.data(), 2, &r.t.x, &r.t_u.x, &r.t_v.x);
+    r.cloth_u = r.p_u;
+    r.cloth_v = r.p_v;
+    glm::dmat2x3 dp, dp_alone;
+    LimitSample alone = r;
+    if (!s.cloth_points.empty() && take_alone(at, s, alone, dp_alone) && r.cloth(dp[0], dp[1]) &&
+        relative_distance(dp, dp_alone) > s.one_sided) {
+        r = alone;
+        r.alone = true;
+    }
     return r;
 }
 

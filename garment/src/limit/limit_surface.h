@@ -21,6 +21,9 @@ inline constexpr double kInfinitelySharp = 10.0; ///< Sdc::Crease::SHARPNESS_INF
 struct LimitSample {
     glm::dvec3 p, p_u, p_v;
     glm::dvec2 t{0.0}, t_u{0.0}, t_v{0.0};
+    /// Derivatives of the position that go with those of the UV, see LimitSurface::sample.
+    glm::dvec3 cloth_u{0.0}, cloth_v{0.0};
+    bool alone = false; ///< they are of the panel alone
 
     /// False where the tangents enclose no area.
     bool normal(glm::dvec3 &n) const;
@@ -53,6 +56,9 @@ class LimitSurface {
     struct Scratch {
         Surface surface, uv_surface;
         std::vector<double> points, uv_points;
+        std::vector<double> cloth_points; ///< of `uv_surface`; empty where both follow one rule
+        double one_sided = 0.0; ///< what derivatives of the panel alone may err by, relative
+        std::vector<int> control, cloth_control; ///< vertices of both
         bool has_uv = false;
     };
 
@@ -73,6 +79,10 @@ class LimitSurface {
     /// Sets `scratch` to a face; the following work on that face.
     void prepare(std::size_t face, Scratch &scratch) const;
     /// \param at the face's own coordinates. The position is relative to `centre`.
+    /// At a seam the position follows the rules of the inside and the UV those of a hem: among
+    /// faces of all shapes their derivatives do not go together, and those of the panel alone, with
+    /// its seams as hems, are taken. These are one-sided, of the first order alone, so where both
+    /// agree as well as the bend of the face lets them, the surface's own are.
     LimitSample sample(const glm::dvec2 &at, const Scratch &scratch) const;
     /// The position alone, relative to `centre`.
     glm::dvec3 point(const glm::dvec2 &at, const Scratch &scratch) const;
@@ -81,6 +91,11 @@ class LimitSurface {
     glm::dvec2 nudged(const glm::dvec2 &at, const Scratch &scratch) const;
 
   private:
+    void prepare_cloth(Scratch &scratch) const;
+    /// Sets the derivatives of the panel alone; false where the UV is degenerate.
+    static bool take_alone(const glm::dvec2 &at, const Scratch &scratch, LimitSample &sample,
+                           glm::dmat2x3 &dp);
+
     using Factory =
         OpenSubdiv::Bfr::RefinerSurfaceFactory<OpenSubdiv::Bfr::SurfaceFactoryCacheThreaded<
             std::shared_mutex, std::shared_lock<std::shared_mutex>,
@@ -93,6 +108,7 @@ class LimitSurface {
     glm::dvec3 centre_{0.0};
     std::vector<glm::dvec3> relative_; ///< positions less the centre
     std::vector<glm::dvec2> uv_;
+    std::vector<std::uint32_t> uv_vertex_; ///< the one vertex that has the UV
 };
 
 } // namespace tsuya::garment
