@@ -112,7 +112,7 @@ void LimitStencils::apply_face(std::size_t f, const PolygonMesh &mesh, const glm
         return;
     // Sums over the control points of positions, and of both derivatives, side by side: loops of
     // independent sums, which the compiler makes wide.
-    const std::size_t count = first_[f + 1] - first_[f], all = 5 * count;
+    const std::size_t count = first_[f + 1] - first_[f], all = (face.cloth.empty() ? 3 : 5) * count;
     sums.assign(3 * all, 0.0);
     double *const x = sums.data(), *const y = x + all, *const z = y + all;
     const double *w = face.weight->data();

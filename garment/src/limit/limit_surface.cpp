@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include <opensubdiv/far/topologyDescriptor.h>
 
 #include "limit/creases.h"
+#include "limit/uv_values.h"
 #include "mesh/stop.h"
 #include "mesh/valence.h"
 #include "tsuya/sdk/angle.h"
@@ -75,43 +74,6 @@ void check_input(const PolygonMesh &mesh, const SubdivideOptions &options) {
             throw Error({"face " + std::to_string(f) + " has " +
                              detail::counted(mesh.face_size(f), "corner"),
                          "mesh", "expected fewer than " + std::to_string(kMaxValence)});
-}
-
-/// UVs as values that one vertex has each: an index that several vertices share becomes more.
-struct UvValues {
-    std::vector<int> of_corner;
-    std::vector<glm::dvec2> uv;
-    std::vector<std::uint32_t> vertex;
-};
-
-UvValues make_uv_values(const PolygonMesh &mesh) {
-    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    UvValues values{.of_corner = std::vector<int>(mesh.corner_uv.size()),
-                    .uv = mesh.uv,
-                    .vertex = std::vector<std::uint32_t>(mesh.uv.size() + 1, kNone)};
-    values.uv.emplace_back(0.0); // of all corners without UV
-    std::map<std::pair<std::uint32_t, std::int32_t>, int> shared;
-    for (std::size_t c = 0; c < mesh.corner_uv.size(); ++c) {
-        const std::int32_t uv = mesh.corner_uv[c];
-        const std::uint32_t v = mesh.corner_position[c];
-        if (uv < 0) {
-            values.of_corner[c] = static_cast<int>(mesh.uv.size());
-            continue;
-        }
-        std::uint32_t &vertex = values.vertex[static_cast<std::size_t>(uv)];
-        if (vertex == kNone)
-            vertex = v;
-        values.of_corner[c] = uv;
-        if (vertex == v)
-            continue;
-        const auto [it, added] = shared.try_emplace({v, uv}, static_cast<int>(values.uv.size()));
-        values.of_corner[c] = it->second;
-        if (added) {
-            values.uv.push_back(mesh.uv[static_cast<std::size_t>(uv)]);
-            values.vertex.push_back(v);
-        }
-    }
-    return values;
 }
 
 Refiner make_refiner(const PolygonMesh &mesh, const SubdivideOptions &options,
@@ -221,6 +183,7 @@ LimitSurface::LimitSurface(const PolygonMesh &mesh, const SubdivideOptions &opti
     set_positions(mesh.position);
     uv_ = std::move(uvs.uv);
     uv_vertex_ = std::move(uvs.vertex);
+    near_cut_ = std::move(uvs.near_cut);
 }
 
 void LimitSurface::set_positions(const std::vector<glm::dvec3> &positions) {
@@ -231,22 +194,34 @@ void LimitSurface::set_positions(const std::vector<glm::dvec3> &positions) {
         relative_.push_back(p - centre_);
 }
 
+void LimitSurface::prepare_positions(std::size_t face, Scratch &s) const {
+    init(face, s, false);
+    s.uv_points.clear();
+    s.cloth_points.clear();
+    s.has_uv = false;
+}
+
 void LimitSurface::prepare(std::size_t face, Scratch &s) const {
-    const int count = mesh_.uv.empty() ? 0 : 1;
-    if (!factory_->InitSurfaces(static_cast<int>(face), &s.surface, count ? &s.uv_surface : nullptr,
-                                nullptr, count))
+    if (mesh_.uv.empty())
+        return prepare_positions(face, s);
+    init(face, s, true);
+    s.uv_points.resize(2 * static_cast<std::size_t>(s.uv_surface.GetNumPatchPoints()));
+    s.uv_surface.PreparePatchPoints(&uv_[0].x, 2, s.uv_points.data(), 2);
+    s.has_uv = garment::has_uv(mesh_, face);
+    s.cloth_points.clear();
+    const auto first = mesh_.corner_position.begin() + mesh_.face_offset[face];
+    const auto last = mesh_.corner_position.begin() + mesh_.face_offset[face + 1];
+    if (s.has_uv && std::any_of(first, last, [&](std::uint32_t v) { return near_cut_[v]; }))
+        prepare_cloth(s);
+}
+
+void LimitSurface::init(std::size_t face, Scratch &s, bool with_uv) const {
+    if (!factory_->InitSurfaces(static_cast<int>(face), &s.surface,
+                                with_uv ? &s.uv_surface : nullptr, nullptr, with_uv ? 1 : 0))
         throw Error({"face " + std::to_string(face) + " has no limit surface", "mesh",
                      "expected a manifold mesh, see make_manifold"});
     s.points.resize(3 * static_cast<std::size_t>(s.surface.GetNumPatchPoints()));
     s.surface.PreparePatchPoints(&relative_[0].x, 3, s.points.data(), 3);
-    if (count) {
-        s.uv_points.resize(2 * static_cast<std::size_t>(s.uv_surface.GetNumPatchPoints()));
-        s.uv_surface.PreparePatchPoints(&uv_[0].x, 2, s.uv_points.data(), 2);
-    }
-    s.has_uv = count > 0 && garment::has_uv(mesh_, face);
-    s.cloth_points.clear();
-    if (s.has_uv)
-        prepare_cloth(s);
 }
 
 void LimitSurface::prepare_cloth(Scratch &s) const {
@@ -292,13 +267,15 @@ bool LimitSurface::take_alone(const glm::dvec2 &at, const Scratch &s, LimitSampl
 LimitSample LimitSurface::sample(const glm::dvec2 &at, const Scratch &s) const {
     LimitSample r;
     s.surface.Evaluate(&at.x, s.points.data(), 3, &r.p.x, &r.p_u.x, &r.p_v.x);
-    if (!mesh_.uv.empty())
+    if (!s.uv_points.empty())
         s.uv_surface.Evaluate(&at.x, s.uv_points.data(), 2, &r.t.x, &r.t_u.x, &r.t_v.x);
     r.cloth_u = r.p_u;
     r.cloth_v = r.p_v;
+    if (s.cloth_points.empty())
+        return r;
     glm::dmat2x3 dp, dp_alone;
     LimitSample alone = r;
-    if (!s.cloth_points.empty() && take_alone(at, s, alone, dp_alone) && r.cloth(dp[0], dp[1]) &&
+    if (take_alone(at, s, alone, dp_alone) && r.cloth(dp[0], dp[1]) &&
         relative_distance(dp, dp_alone) > s.one_sided) {
         r = alone;
         r.alone = true;

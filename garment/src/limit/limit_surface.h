@@ -78,6 +78,8 @@ class LimitSurface {
 
     /// Sets `scratch` to a face; the following work on that face.
     void prepare(std::size_t face, Scratch &scratch) const;
+    /// The same without UVs, which samples lack then.
+    void prepare_positions(std::size_t face, Scratch &scratch) const;
     /// \param at the face's own coordinates. The position is relative to `centre`.
     /// At a seam the position follows the rules of the inside and the UV those of a hem: among
     /// faces of all shapes their derivatives do not go together, and those of the panel alone, with
@@ -91,6 +93,7 @@ class LimitSurface {
     glm::dvec2 nudged(const glm::dvec2 &at, const Scratch &scratch) const;
 
   private:
+    void init(std::size_t face, Scratch &scratch, bool with_uv) const;
     void prepare_cloth(Scratch &scratch) const;
     /// Sets the derivatives of the panel alone; false where the UV is degenerate.
     static bool take_alone(const glm::dvec2 &at, const Scratch &scratch, LimitSample &sample,
@@ -109,6 +112,7 @@ class LimitSurface {
     std::vector<glm::dvec3> relative_; ///< positions less the centre
     std::vector<glm::dvec2> uv_;
     std::vector<std::uint32_t> uv_vertex_; ///< the one vertex that has the UV
+    std::vector<bool> near_cut_;           ///< vertices of faces where UVs may part
 };
 
 } // namespace tsuya::garment
