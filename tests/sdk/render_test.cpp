@@ -247,7 +247,11 @@ TEST(Promises, ErrorRuleStopsEarly) {
     const Scene scene = folded_satin(64, 64);
     RenderSettings settings = quick(4096);
     settings.stop.relative_error = 0.03;
-    const RenderResult result = render(scene, settings);
+    double told = 0;
+    const RenderResult result =
+        render(scene, settings,
+               {.report = [&](std::string_view, double done) { told = std::max(told, done); }});
+    EXPECT_GT(told, 0.4); // by the tiles that are done, not by 4096 samples
     EXPECT_LT(result.stats.samples_per_pixel, 1000);
     EXPECT_GT(result.stats.samples_per_pixel, 16);
     EXPECT_LE(result.stats.relative_error, 0.03);

@@ -73,7 +73,8 @@ template <int K> class Passes {
                 check_finite();
             if (stop.seconds && film_.seconds >= *stop.seconds)
                 break;
-            if (all_good_enough())
+            reached_ = share_good_enough();
+            if (reached_ >= 1)
                 break;
         }
     }
@@ -86,11 +87,11 @@ template <int K> class Passes {
                film_.done[tile] >= kLeastPasses * kSamplesPerPass &&
                film_.relative_error(tile) <= *settings_.stop.relative_error;
     }
-    bool all_good_enough() const {
+    double share_good_enough() const {
+        std::size_t enough = 0;
         for (std::size_t t = 0; t < film_.tiles.size(); ++t)
-            if (!good_enough(t))
-                return false;
-        return true;
+            enough += good_enough(t) ? 1 : 0;
+        return static_cast<double>(enough) / static_cast<double>(film_.tiles.size());
     }
 
     void check_finite() const {
@@ -125,10 +126,12 @@ template <int K> class Passes {
 
     void report(int from, int to, std::size_t finished) {
         const std::unique_lock lock(reporting_, std::try_to_lock);
-        if (lock)
-            progress_("render", (from + (to - from) * static_cast<double>(finished) /
-                                            static_cast<double>(film_.tiles.size())) /
-                                    settings_.stop.samples_per_pixel);
+        if (!lock)
+            return;
+        const double passed =
+            static_cast<double>(finished) / static_cast<double>(film_.tiles.size());
+        const double of_most = (from + (to - from) * passed) / settings_.stop.samples_per_pixel;
+        progress_("render", std::max(of_most, reached_));
     }
 
     void render_tile(const Tile &tile, int from, int to) {
@@ -190,6 +193,7 @@ template <int K> class Passes {
     FilmKeeper &keeper_;
     const Progress &progress_;
     std::atomic<std::uint64_t> rays_{0}, not_finite_{0};
+    double reached_ = 0; // part of the tiles that had enough before the pass
     std::mutex reporting_;
 };
 

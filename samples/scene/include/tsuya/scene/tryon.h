@@ -24,7 +24,7 @@ namespace tsuya::scene {
 
 /// Default quality of the picture of a try-on: the mean error of the pixels
 /// of each part of it, as a share of its value, and the most samples that a pixel may take.
-inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.035};
+inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.02};
 
 /// Throws Error for dyes that a try-on refuses whatever files there are: an unknown name, two of
 /// one name.
