@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/bench_scene.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/scene_file.h"
 
@@ -96,6 +97,7 @@ std::vector<RenderScene> render_scenes(const std::filesystem::path &scenes) {
     }
     const scene::SceneFile studio = scene::read_scene_file(scenes / "studio.scene.toml");
     list.push_back({"studio", build_scene(studio).scene, studio.render.max_bounces});
+    list.push_back({"dress", sample_scene(1, 100, 125), RenderSettings{}.max_bounces});
     return list;
 }
 

@@ -21,7 +21,7 @@ struct RenderScene {
 Scene skirt(const std::string &fabric, int lights, int size);
 
 // The skirt in both fabrics with direct light alone and with three bounces in an even environment;
-// the three-softbox studio.
+// the three-softbox studio; the sample dress as it is tried on.
 // \param scenes the folder of the scene files of the benchmarks
 std::vector<RenderScene> render_scenes(const std::filesystem::path &scenes);
 
