@@ -34,7 +34,7 @@ struct TryOn final : Command {
         cloth.add_data(o);
         o.example("tsuya tryon --garment dress.obj --fabric black_satin --dye white,indigo "
                   "--lamps D65,A -o out");
-        o.notes("Without --garment: the sample dress on its mannequin.\n" + FabricOptions::notes());
+        o.notes("Without --garment: the sample dress on a dress form.\n" + FabricOptions::notes());
     }
 
     void add_garment(Options &o) {

@@ -311,7 +311,7 @@ std::vector<fs::path> replaced_files(const TryOn &job) {
 
 TryOn sample_try_on(const fs::path &data) {
     return {.garment = data / "dress" / "dress.obj",
-            .body = data / "dress" / "mannequin.obj",
+            .body = data / "dress" / "dress_form.obj",
             .fabric = find_fabric("black_satin", data)};
 }
 

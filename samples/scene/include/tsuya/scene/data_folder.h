@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the sample data lies: dress, mannequin, fabrics and scenes.
+/// Where the sample data lies: garments, dress form, fabrics and scenes.
 
 #include <filesystem>
 #include <string>

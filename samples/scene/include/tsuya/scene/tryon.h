@@ -73,7 +73,7 @@ struct TryOn {
     std::filesystem::path output{}; ///< a folder; made where it is missing
 };
 
-/// The sample dress on its mannequin in the sample satin. `output` is left to the caller. Throws
+/// The sample dress on its dress form in the sample satin. `output` is left to the caller. Throws
 /// Error as find_fabric.
 TryOn sample_try_on(const std::filesystem::path &data);
 
