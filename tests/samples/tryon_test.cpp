@@ -33,13 +33,22 @@ TEST(TryOn, LightsTheGarmentFromTheLeftOfThePicture) {
         job.azimuth_deg = azimuth;
         const Scene scene = make_try_on_scene(job).scene;
         EXPECT_EQ(scene.light_groups, (std::vector<std::string>{"key", "fill"}));
-        ASSERT_EQ(scene.rectangles.size(), 1u);
-        const RectangleLight &key = scene.rectangles[0];
-        const glm::dvec3 centre = key.corner + 0.5 * (key.edge_u + key.edge_v);
+        ASSERT_EQ(scene.rectangles.size(), 2u);
         const glm::dvec3 forward = scene.camera.target - scene.camera.eye;
         const glm::dvec3 right = glm::cross(forward, scene.camera.up);
-        EXPECT_LT(glm::dot(centre - scene.camera.target, right), 0);
-        EXPECT_GT(centre.y, scene.camera.target.y);
+        const auto centre_of = [&](const RectangleLight &box) {
+            return box.corner + 0.5 * (box.edge_u + box.edge_v) - scene.camera.target;
+        };
+        const RectangleLight &key = scene.rectangles[0], &strip = scene.rectangles[1];
+        EXPECT_LT(glm::dot(centre_of(key), right), 0);
+        EXPECT_GT(centre_of(key).y, 0);
+        // The strip lights from the other side, much weaker.
+        EXPECT_GT(glm::dot(centre_of(strip), right), 0);
+        const glm::dvec3 &target = scene.camera.target;
+        EXPECT_LT(irradiance(strip, target, glm::normalize(centre_of(strip))),
+                  0.5 * irradiance(key, target, glm::normalize(centre_of(key))));
+        EXPECT_EQ(key.group.value, 0u);
+        EXPECT_EQ(strip.group.value, 0u);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "tsuya/scene/tryon.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 
@@ -25,14 +26,23 @@ namespace {
 namespace fs = std::filesystem;
 
 // The studio, found by looking at the sample dress.
-constexpr double kBodyReflectance = 0.25;
-constexpr double kBackdropReflectance = 0.26;
+constexpr double kBodyReflectance = 0.35;
+constexpr double kBackdropReflectance = 0.2;
 constexpr double kElevation = 3 * kDegree;    // of the camera
 constexpr double kAngleOfView = 24 * kDegree; // an 85 mm lens on 36 mm film
-constexpr double kKeyAzimuth = -66 * kDegree; // from the camera to the left
-constexpr double kKeyElevation = 28 * kDegree;
-constexpr double kKeyStrength = 0.8;
-constexpr double kFillRadiance = 0.09;
+constexpr double kFillRadiance = 0.14;
+
+/// A softbox about a subject of size 1, all of the group `key`.
+struct StudioLight {
+    const char *name;
+    double azimuth, elevation; ///< from the camera, to its right; above the horizon
+    double distance, width, height;
+    double strength;
+};
+constexpr std::array<StudioLight, 2> kStudioLights{{
+    {"key", -56 * kDegree, 30 * kDegree, 1.5, 0.2, 0.5, 0.95},
+    {"strip", 75 * kDegree, 12 * kDegree, 1.4, 0.3, 0.8, 0.3},
+}};
 
 /// A dye with the name that its files bear.
 struct NamedDye {
@@ -119,14 +129,17 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
     const glm::dvec3 middle = 0.5 * (bounds.lower + bounds.upper);
     const double size = std::max(glm::length(bounds.upper - bounds.lower), 1e-3);
     scene.light_groups = {"key", "fill"};
-    scene.rectangles = {make_light(
-        {.centre = middle + 1.5 * size * direction_of(azimuth + kKeyAzimuth, kKeyElevation),
-         .target = middle,
-         .width = 0.1 * size, // a larger one would blur the satin's lobe
-         .height = 0.3 * size,
-         .strength = kKeyStrength,
-         .group = {0}})};
-    scene.rectangles.back().name = scene.light_groups.front();
+    for (const StudioLight &box : kStudioLights) {
+        scene.rectangles.push_back(
+            make_light({.centre = middle + box.distance * size *
+                                               direction_of(azimuth + box.azimuth, box.elevation),
+                        .target = middle,
+                        .width = box.width * size,
+                        .height = box.height * size,
+                        .strength = box.strength,
+                        .group = {0}}));
+        scene.rectangles.back().name = box.name;
+    }
     scene.environment = Environment{.radiance = kFillRadiance, .group = {1}, .visible = true};
     add_object(scene, "backdrop",
                make_cyclorama({.centre = {middle.x, bounds.lower.y, middle.z},
