@@ -94,8 +94,8 @@ struct RenderResult {
     std::vector<Problem> warnings{};
 };
 
-/// A key of all that decides a picture: hashes of the scene, of the settings and of the stop rule, 48
-/// hexadecimal digits. A render that is complete has it in its image's metadata as "render_key".
+/// A key of all that decides a picture: hashes of scene, settings and stop rule, 48 hexadecimal
+/// digits. A render that is complete has it in its image's metadata as "render_key".
 std::string render_key(const Scene &scene, const RenderSettings &settings);
 
 /// Renders. On one build the picture is bit-identical for any number of threads, and after stop and
