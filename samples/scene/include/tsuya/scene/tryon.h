@@ -85,8 +85,8 @@ struct TryOnScene {
 
 /// The studio of a try-on with the fabric's own dye: the camera in front frames the garment, a
 /// softbox from the left of the picture and a weaker one from its right are the light group `key`,
-/// a weak uniform light from everywhere is the group `fill`. Everything scales with the garment. The garment's fabric is the
-/// first. Throws Error for files that cannot be read, and Interrupted.
+/// a weak uniform light from everywhere is the group `fill`. Everything scales with the garment.
+/// The garment's fabric is the first. Throws Error for files that cannot be read, and Interrupted.
 TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
 
 /// Renders the scene of a try-on with one AOV, `coverage`: 1 where the garment fills
