@@ -148,7 +148,8 @@ struct Render final : Command {
     }
 
     /// A frame of a sequence that is to be resumed and was finished: its render is there, complete
-    /// and of the same scene and settings, and its other results are no older than it and the scene.
+    /// and of the same scene and settings, and its other results are no older than it and the
+    /// scene.
     bool is_done(const scene::SceneFile &file, const Scene &shown,
                  const RenderSettings &settings) const {
         if (!resume || !frames || fs::exists(checkpoint()))
