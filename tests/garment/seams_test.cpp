@@ -133,6 +133,41 @@ TEST(Seams, LayersThatLieOnEachOtherAreNotSewn) {
     EXPECT_EQ(sewn.seams.layered, 0u);
 }
 
+// The panels of a tube as programs export them, apart from each other.
+PolygonMesh unsewn_tube(double radius, int columns, int rows, int panels) {
+    PolygonMesh whole;
+    for (int k = 0; k < panels; ++k) {
+        const int n = columns / panels;
+        const PolygonMesh piece =
+            test::grid(n, rows, false, false, glm::dvec2(0.05), [&](int i, int j) {
+                const double angle = 2 * std::numbers::pi * (k * n + i) / columns;
+                return glm::dvec3(radius * std::cos(angle), 0.6 * j / rows,
+                                  radius * std::sin(angle));
+            });
+        whole = k == 0 ? piece : both(whole, piece);
+    }
+    return whole;
+}
+
+// The same of panels that are apart, of other edges than those of the cloth, in any order: each
+// layer is sewn to itself alone.
+TEST(Seams, LayersOfSeveralPanelsAreSewnEachToItself) {
+    for (const double apart : {0.0, 0.3e-3, 0.45e-3})
+        for (const int panels : {1, 2, 4})
+            for (const int columns : {24, 40}) {
+                const PolygonMesh shell = unsewn_tube(0.26, 24, 12, panels),
+                                  lining = unsewn_tube(0.26 - apart, columns, 12, panels);
+                for (const PolygonMesh &garment : {both(shell, lining), both(lining, shell)}) {
+                    const Report report = check(garment);
+                    EXPECT_EQ(report.parts, 2u) << apart << " " << panels << " " << columns;
+                    EXPECT_EQ(report.openings.size(), 4u);
+                    EXPECT_EQ(report.joined.flipped_faces + report.joined.non_manifold_edges, 0u);
+                    EXPECT_EQ(report.seams.unresolved + report.seams.slits, 0u);
+                    EXPECT_TRUE(keys(report).contains("two_layers"));
+                }
+            }
+}
+
 // Front and back of a flat garment meet at an angle that goes to 0 at the side seam: however fine
 // the mesh is, they part from each other there.
 TEST(Seams, AFlatTubeIsSewnAtItsSides) {

@@ -57,7 +57,62 @@ bool lie_on_each_other(const PolygonMesh &mesh, std::vector<std::uint32_t> faces
     return static_cast<double>(near) >= kShare * static_cast<double>(samples);
 }
 
-/// Asks each vertex of the boundary how its rim lies to the rims of other parts that pass it.
+LayeredParts::LayeredParts(const std::vector<std::uint32_t> &part, std::uint32_t parts,
+                           std::set<std::pair<std::uint32_t, std::uint32_t>> pairs)
+    : pairs_(std::move(pairs)) {
+    if (pairs_.empty())
+        return;
+    sets_.resize(parts + 1);
+    for (std::uint32_t p = 0; p < parts; ++p)
+        sets_[p + 1] = {p};
+    for (const std::uint32_t p : part)
+        set_.push_back(p + 1);
+}
+
+bool LayeredParts::has(std::uint32_t a, std::uint32_t b) const {
+    if (pairs_.empty())
+        return false;
+    for (const std::uint32_t p : sets_[set_of(a)])
+        for (const std::uint32_t q : sets_[set_of(b)])
+            if (pairs_.contains(std::minmax(p, q)))
+                return true;
+    return false;
+}
+
+void LayeredParts::join(std::uint32_t into, const std::vector<std::uint32_t> &members) {
+    if (pairs_.empty())
+        return;
+    std::vector<std::uint32_t> parts;
+    for (const std::uint32_t v : members)
+        parts.insert(parts.end(), sets_[set_of(v)].begin(), sets_[set_of(v)].end());
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    if (into >= set_.size() || parts == sets_[set_[into]])
+        return;
+    set_[into] = static_cast<std::uint32_t>(sets_.size());
+    sets_.push_back(std::move(parts));
+}
+
+void LayeredParts::keep(const std::vector<std::uint32_t> &kept) {
+    if (pairs_.empty())
+        return;
+    std::vector<std::uint32_t> set;
+    for (const std::uint32_t v : kept)
+        set.push_back(set_of(v));
+    set_ = std::move(set);
+}
+
+void LayeredParts::copy(std::uint32_t vertex, std::uint32_t added) {
+    if (pairs_.empty())
+        return;
+    const std::uint32_t set = set_of(vertex);
+    set_.resize(added + 1, 0);
+    set_[added] = set;
+}
+
+/// Asks each vertex of the boundary how its rim lies to the rims of other parts that pass it. Where
+/// a seam of the other part ends there, one side of it may lie on the rim and one beside it: it is
+/// folded if any is.
 void MeshRepair::find_layers(double tolerance) {
     const SetNumbers parts = find_parts(mesh_);
     const OpenSides &open = open_sides();
@@ -66,30 +121,37 @@ void MeshRepair::find_layers(double tolerance) {
     for (const std::uint32_t v : open.vertices()) {
         look_at_stop(progress_, turn++);
         const glm::dvec3 &p = mesh_.position[v];
+        std::map<std::uint32_t, Contact> contacts;
         std::uint32_t last = 0;
         for (const std::uint32_t i : open.near(p)) {
             const OpenSide &side = open.sides()[i];
-            if (parts.of[v] != parts.of[side.from] && i + 1 != std::exchange(last, i + 1) &&
-                segment_distance(p, open.start(side), open.end(side)) <= tolerance)
-                votes.add(parts.of[v], parts.of[side.from], open.contact(v, side, tolerance));
+            if (parts.of[v] == parts.of[side.from] || i + 1 == std::exchange(last, i + 1) ||
+                segment_distance(p, open.start(side), open.end(side)) > tolerance)
+                continue;
+            Contact &contact = contacts[parts.of[side.from]];
+            contact = std::max(contact, open.contact(v, side, tolerance));
         }
+        for (const auto &[other, contact] : contacts)
+            votes.add({parts.of[v], other}, v, contact);
     }
     const auto candidates = votes.candidates();
     std::vector<std::vector<std::uint32_t>> faces(candidates.empty() ? 0 : parts.count);
     for (std::uint32_t f = 0; !faces.empty() && f < mesh_.face_count(); ++f)
         faces[parts.of[mesh_.corner_position[mesh_.face_offset[f]]]].push_back(f);
-    std::set<std::pair<std::uint32_t, std::uint32_t>> layers;
-    for (const auto &[one, other] : candidates) {
+    std::set<LayerVotes::Parts> layers;
+    std::set<std::uint32_t> layered;
+    for (const LayerVotes::Parts &pair : candidates) {
         look_at_stop(progress_);
-        if (lie_on_each_other(mesh_, faces[one], faces[other], kLayerTolerances * tolerance))
-            layers.insert({one, other});
+        if (!lie_on_each_other(mesh_, faces[pair.first], faces[pair.second],
+                               kLayerTolerances * tolerance))
+            continue;
+        layers.insert(pair);
+        layered.insert(votes.folded(pair).begin(), votes.folded(pair).end());
     }
-    layers_ = LayeredParts(parts.of, std::move(layers));
-    for (const std::uint32_t v : open.vertices())
-        if (layers_.has_any(v)) {
-            ++report_.seams.layered;
-            keep_place(report_.seams.first_place, "two_layers", mesh_.position[v]);
-        }
+    layers_ = LayeredParts(parts.of, static_cast<std::uint32_t>(parts.count), std::move(layers));
+    report_.seams.layered = layered.size();
+    if (!layered.empty())
+        keep_place(report_.seams.first_place, "two_layers", mesh_.position[*layered.begin()]);
 }
 
 } // namespace tsuya::garment

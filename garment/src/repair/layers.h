@@ -13,31 +13,31 @@
 
 namespace tsuya::garment {
 
-/// Pairs of parts that are layers, and the part of each vertex.
+/// Pairs of parts that are layers, and the parts of each vertex: more than one where vertices of
+/// several parts were joined.
 class LayeredParts {
   public:
     LayeredParts() = default;
-    LayeredParts(std::vector<std::uint32_t> part,
-                 std::set<std::pair<std::uint32_t, std::uint32_t>> pairs)
-        : part_(std::move(part)), pairs_(std::move(pairs)) {
-        for (const auto &[a, b] : pairs_)
-            layered_.insert({a, b});
-    }
+    LayeredParts(const std::vector<std::uint32_t> &part, std::uint32_t parts,
+                 std::set<std::pair<std::uint32_t, std::uint32_t>> pairs);
 
     /// Two vertices are of layers; false for vertices that sewing added.
-    bool has(std::uint32_t a, std::uint32_t b) const {
-        return !pairs_.empty() && a < part_.size() && b < part_.size() &&
-               pairs_.contains(std::minmax(part_[a], part_[b]));
-    }
-    /// The vertex is of a part that is a layer of another.
-    bool has_any(std::uint32_t v) const {
-        return !layered_.empty() && v < part_.size() && layered_.contains(part_[v]);
-    }
+    bool has(std::uint32_t a, std::uint32_t b) const;
+
+    // The same of vertices that change. Does nothing where there are no layers.
+    /// The members of a cluster become `into`.
+    void join(std::uint32_t into, const std::vector<std::uint32_t> &members);
+    /// Vertex `kept[i]` becomes vertex i.
+    void keep(const std::vector<std::uint32_t> &kept);
+    /// There is a new vertex that is a copy.
+    void copy(std::uint32_t vertex, std::uint32_t added);
 
   private:
-    std::vector<std::uint32_t> part_{};
+    std::uint32_t set_of(std::uint32_t v) const { return v < set_.size() ? set_[v] : 0; }
+
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_{};
-    std::set<std::uint32_t> layered_{};
+    std::vector<std::vector<std::uint32_t>> sets_{}; ///< of parts; the first is empty
+    std::vector<std::uint32_t> set_{};               ///< of each vertex
 };
 
 /// Votes of the places where rims of two parts meet. A seam may have spots where cloth folds over,
@@ -45,25 +45,36 @@ class LayeredParts {
 /// nearly all folded may be layers, and are if their faces lie on each other, too.
 class LayerVotes {
   public:
-    /// Of different parts.
-    void add(std::uint32_t part, std::uint32_t other, Contact contact) {
+    using Parts = std::pair<std::uint32_t, std::uint32_t>;
+
+    /// \param vertex of one part, near the rim of the other
+    void add(Parts parts, std::uint32_t vertex, Contact contact) {
         if (contact == Contact::none)
             return;
-        auto &[folded, all] = votes_[std::minmax(part, other)];
-        folded += contact == Contact::folded;
-        ++all;
+        Votes &votes = votes_[std::minmax(parts.first, parts.second)];
+        ++votes.all;
+        if (contact == Contact::folded)
+            votes.folded.push_back(vertex);
     }
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates() const {
+    std::vector<Parts> candidates() const {
         constexpr std::size_t kShare = 10; // at most one in so many may be a seam
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        std::vector<Parts> pairs;
         for (const auto &[pair, votes] : votes_)
-            if (kShare * (votes.second - votes.first) <= votes.second)
+            if (kShare * (votes.all - votes.folded.size()) <= votes.all)
                 pairs.push_back(pair);
         return pairs;
     }
+    /// The vertices where parts lie on each other.
+    const std::vector<std::uint32_t> &folded(const Parts &parts) const {
+        return votes_.at(parts).folded;
+    }
 
   private:
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> votes_{};
+    struct Votes {
+        std::vector<std::uint32_t> folded{};
+        std::size_t all = 0;
+    };
+    std::map<Parts, Votes> votes_{};
 };
 
 /// Most of the smaller set of faces lies within a distance of the other: of up to 64 of its faces.

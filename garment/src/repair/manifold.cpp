@@ -182,6 +182,7 @@ void MeshRepair::drop_isolated_vertices() {
     if (kept.size() == mesh_.position.size())
         return;
     manifold().isolated_vertices += mesh_.position.size() - kept.size();
+    layers_.keep(kept);
     recipe_.keep(mesh_.position, std::move(kept));
     for (std::uint32_t &v : mesh_.corner_position)
         v = number[v];

@@ -88,7 +88,9 @@ void MeshRepair::faces_changed() {
 
 std::uint32_t MeshRepair::copy_vertex(std::uint32_t vertex) {
     recipe_.append_middle(mesh_.position, vertex, vertex);
-    return static_cast<std::uint32_t>(mesh_.position.size() - 1);
+    const auto added = static_cast<std::uint32_t>(mesh_.position.size() - 1);
+    layers_.copy(vertex, added);
+    return added;
 }
 
 void MeshRepair::keep_place(FirstPlaces &places, const std::string &key, const glm::dvec3 &p) {

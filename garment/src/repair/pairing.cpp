@@ -164,10 +164,13 @@ class PairFinder {
             if (a == b || members[a].size() + members[b].size() > kMostMembers)
                 continue;
             double widest = 0.0;
+            bool layers = false;
             for (const std::uint32_t m : members[a])
-                for (const std::uint32_t n : members[b])
+                for (const std::uint32_t n : members[b]) {
                     widest = std::max(widest, glm::distance(place(m), place(n)));
-            if (widest > rules_.tolerance || have_common(faces_[a], faces_[b]))
+                    layers = layers || rules_.layers.has(vertices_[m], vertices_[n]);
+                }
+            if (widest > rules_.tolerance || layers || have_common(faces_[a], faces_[b]))
                 continue;
             sets.unite(a, b);
             members[a].insert(members[a].end(), members[b].begin(), members[b].end());

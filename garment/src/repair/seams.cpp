@@ -47,6 +47,8 @@ void MeshRepair::join_seams() {
         const Pairing left =
             pair_sides(mesh_, open_sides(), {tolerance, {}, layers_, false}, progress_);
         report.unresolved = std::max(in_slits, left.insertions.size());
+        for (const Insertion &insertion : left.insertions)
+            keep_place(report.first_place, "unresolved_seams", mesh_.position[insertion.vertex]);
     }
     report.boundary_after = open_sides().vertices().size();
 }

@@ -76,6 +76,7 @@ void MeshRepair::apply(Pairing pairing) {
         for (const std::vector<std::uint32_t> &cluster : pairing.clusters) {
             report.joined += cluster.size() - 1;
             recipe_.mean(mesh_.position, cluster[0], cluster);
+            layers_.join(cluster[0], cluster);
             for (const std::uint32_t v : cluster)
                 into[v] = cluster[0];
         }
