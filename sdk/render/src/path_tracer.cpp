@@ -100,10 +100,8 @@ template <int K> bool PathTracer<K>::find_next(const Path &path, Hit &hit) {
         hit.distance = 0;
         if (!scene_.lights.has_environment())
             return true;
-        if (!scene_.has_holes()) {
-            ++rays_;
-            return scene_.accelerator.occluded(path.origin, path.direction, kInfinity);
-        }
+        ++rays_; // no holes, see plan
+        return scene_.accelerator.occluded(path.origin, path.direction, kInfinity);
     }
     ++rays_;
     return scene_.accelerator.intersect(path.origin, path.direction, kInfinity, hit) &&
