@@ -1,9 +1,16 @@
 #include "files/interchange/child_process.h"
 
+#include <array>
+#include <atomic>
 #include <csignal>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -15,8 +22,10 @@ namespace {
 
 using End = ChildResult::End;
 
-constexpr ChildLimits kLimits{
-    .memory_bytes = 1u << 28, .time = std::chrono::seconds(1), .result_bytes = 1u << 20};
+constexpr ChildLimits kLimits{.memory_bytes = 1u << 28,
+                              .cpu_time = std::chrono::seconds(1),
+                              .wall_time = std::chrono::minutes(10),
+                              .result_bytes = 1u << 20};
 
 ChildResult run(const std::function<std::string()> &work) {
     return run_in_child(work, kLimits, "test", {});
@@ -64,7 +73,65 @@ TEST(ChildProcess, TakesNoMoreThanItMay) {
                   }
                   return std::string();
               }).end,
-              End::out_of_time);
+              End::out_of_cpu_time);
+}
+
+std::string sleep_for_an_hour() {
+    std::this_thread::sleep_for(std::chrono::hours(1));
+    return {};
+}
+
+TEST(ChildProcess, MayNotWaitForEver) {
+    ChildLimits limits = kLimits;
+    limits.wall_time = std::chrono::milliseconds(100);
+    EXPECT_EQ(run_in_child(sleep_for_an_hour, limits, "test", {}).end, End::out_of_wall_time);
+}
+
+TEST(ChildProcess, AKillIsNoLimit) {
+    EXPECT_EQ(run([] {
+                  std::raise(SIGKILL);
+                  return std::string();
+              }).end,
+              End::killed);
+}
+
+/// Whether the child of a process that is killed ends, too: by the signal that the system sends, or
+/// without it, as nobody reads what it writes.
+bool ends_with_its_killed_parent(bool by_signal) {
+    std::array<int, 2> ends{}; // the write end is open as long as one of the two lives
+    EXPECT_EQ(pipe(ends.data()), 0);
+    const pid_t parent = fork();
+    if (parent == 0) {
+        close(ends[0]);
+        run([&] {
+            const pid_t child = getpid(), above = getppid();
+            if (!by_signal)
+                prctl(PR_SET_PDEATHSIG, 0);
+            if (write(ends[1], &child, sizeof child) != sizeof child || by_signal)
+                return sleep_for_an_hour();
+            while (getppid() == above)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            return std::string(900'000, 'x'); // longer than a pipe holds
+        });
+        _exit(0);
+    }
+    close(ends[1]);
+    pid_t child = 0;
+    EXPECT_EQ(read(ends[0], &child, sizeof child), static_cast<ssize_t>(sizeof child));
+    kill(parent, SIGKILL);
+    waitpid(parent, nullptr, 0);
+    constexpr int kGiveUpMs = 20'000;
+    pollfd waiting{.fd = ends[0], .events = POLLIN, .revents = 0};
+    const bool ended = poll(&waiting, 1, kGiveUpMs) == 1;
+    if (!ended)
+        kill(child, SIGKILL);
+    close(ends[0]);
+    return ended;
+}
+
+TEST(ChildProcess, EndsWithAKilledParent) {
+    EXPECT_TRUE(ends_with_its_killed_parent(true));
+    EXPECT_TRUE(ends_with_its_killed_parent(false));
 }
 
 TEST(ChildProcess, StopsWithItsCaller) {
@@ -73,11 +140,7 @@ TEST(ChildProcess, StopsWithItsCaller) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         stop = true;
     });
-    const auto sleeps = [] {
-        std::this_thread::sleep_for(std::chrono::hours(1));
-        return std::string();
-    };
-    EXPECT_THROW(run_in_child(sleeps, kLimits, "test", {.stop = &stop}), Interrupted);
+    EXPECT_THROW(run_in_child(sleep_for_an_hour, kLimits, "test", {.stop = &stop}), Interrupted);
     later.join();
 }
 

@@ -5,10 +5,12 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,8 +26,8 @@ using End = ChildResult::End;
 /// First byte of what comes back.
 constexpr char kDone = 'D', kFailed = 'F', kNoMemory = 'M';
 
-void set_limit(int what, std::uint64_t value) {
-    const rlimit limit{value, value};
+void set_limit(int what, std::uint64_t soft, std::uint64_t hard) {
+    const rlimit limit{soft, hard};
     setrlimit(static_cast<__rlimit_resource_t>(what), &limit);
 }
 
@@ -62,17 +64,28 @@ std::string answer_of(const std::function<std::string()> &work) {
     }
 }
 
+/// The calling process ends when `parent` does. The kernel sends the signal when the thread that
+/// forked ends, which waits in run_in_child until then.
+void end_with(pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) // it ended before the call
+        _exit(1);
+}
+
 /// The copy, from here to its end.
 [[noreturn]] void be_child(int to, const std::function<std::string()> &work,
                            const ChildLimits &limits) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGSEGV, SIGABRT})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGSEGV, SIGABRT, SIGXCPU})
         std::signal(signal, SIG_DFL);
     if (const int nowhere = open("/dev/null", O_RDWR); nowhere >= 0)
         for (const int stream : {0, 1, 2})
             dup2(nowhere, stream);
-    set_limit(RLIMIT_CORE, 0);
-    set_limit(RLIMIT_AS, address_space() + limits.memory_bytes);
-    set_limit(RLIMIT_CPU, static_cast<std::uint64_t>(limits.time.count()));
+    set_limit(RLIMIT_CORE, 0, 0);
+    const std::uint64_t memory = address_space() + limits.memory_bytes;
+    set_limit(RLIMIT_AS, memory, memory);
+    // SIGXCPU at the soft limit; the hard one would send SIGKILL, as others do
+    const auto seconds = static_cast<std::uint64_t>(limits.cpu_time.count());
+    set_limit(RLIMIT_CPU, seconds, seconds + 1);
     _exit(write_all(to, answer_of(work)) ? 0 : 1);
 }
 
@@ -120,11 +133,14 @@ class PipeEnd {
     int file_;
 };
 
-/// All that comes; nullopt-like false where it is more than `most`.
-bool read_all(int from, std::uint64_t most, const Progress &progress, std::string &bytes) {
+/// Appends all that comes to `bytes`. Returns why it gave up, nothing at the end of the file.
+std::optional<End> read_all(int from, const ChildLimits &limits, const Progress &progress,
+                            std::string &bytes) {
+    using Clock = std::chrono::steady_clock;
     constexpr int kLookEveryMs = 50;
     std::array<char, 1 << 16> block{};
-    for (;;) {
+    const Clock::time_point start = Clock::now();
+    while (Clock::now() - start < limits.wall_time) {
         look_at_stop(progress);
         pollfd waiting{.fd = from, .events = POLLIN, .revents = 0};
         if (poll(&waiting, 1, kLookEveryMs) <= 0)
@@ -133,16 +149,19 @@ bool read_all(int from, std::uint64_t most, const Progress &progress, std::strin
         if (got < 0 && errno == EINTR)
             continue;
         if (got <= 0)
-            return true;
+            return std::nullopt;
         bytes.append(block.data(), static_cast<std::size_t>(got));
-        if (bytes.size() > most)
-            return false;
+        if (bytes.size() > limits.result_bytes)
+            return End::too_long;
     }
+    return End::out_of_wall_time;
 }
 
 ChildResult result_of(int status, std::string bytes) {
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-        return {End::out_of_time};
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        return {End::out_of_cpu_time};
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+        return {End::killed};
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty())
         return {End::failed};
     const char kind = bytes.front();
@@ -162,17 +181,20 @@ ChildResult run_in_child(const std::function<std::string()> &work, const ChildLi
         throw Error({"no pipe can be made: " + std::generic_category().message(errno), where,
                      "expected fewer open files"});
     PipeEnd from(ends[0]), to(ends[1]);
-    const pid_t id = fork();
+    const pid_t parent = getpid(), id = fork();
     if (id < 0)
         throw Error({"no process can be made: " + std::generic_category().message(errno), where,
                      "expected a system with room for one more"});
-    if (id == 0)
+    if (id == 0) {
+        end_with(parent);
+        from.close_it(); // so that writing fails where nobody reads
         be_child(to.file(), work, limits);
+    }
     Child child(id);
     to.close_it();
     std::string bytes;
-    if (!read_all(from.file(), limits.result_bytes, progress, bytes))
-        return {End::too_long};
+    if (const std::optional<End> why = read_all(from.file(), limits, progress, bytes))
+        return {*why};
     return result_of(child.wait(), std::move(bytes));
 }
 

@@ -21,8 +21,11 @@ constexpr const char *kOtherwise = "expected a file that another program has wri
 ChildLimits limits_for(std::size_t bytes) {
     constexpr std::uint64_t kFreeBytes = 1u << 30, kBytesPerByte = 256;
     constexpr std::size_t kBytesPerSecond = 250'000;
+    constexpr int kWallPerCpu = 10; // many processes may share the processor
+    const std::chrono::seconds cpu_time(20 + bytes / kBytesPerSecond);
     return {.memory_bytes = kFreeBytes + kBytesPerByte * bytes,
-            .time = std::chrono::seconds(20 + bytes / kBytesPerSecond),
+            .cpu_time = cpu_time,
+            .wall_time = kWallPerCpu * cpu_time,
             .result_bytes = kFreeBytes / 2 + kBytesPerByte * bytes};
 }
 
@@ -30,9 +33,17 @@ ChildLimits limits_for(std::size_t bytes) {
                          const std::string &where) {
     using End = ChildResult::End;
     switch (result.end) {
-    case End::out_of_time:
-        throw Error({"Assimp takes more than " + std::to_string(limits.time.count()) + " s for it",
+    case End::out_of_cpu_time:
+        throw Error({"Assimp takes more than " + std::to_string(limits.cpu_time.count()) +
+                         " s of processor time for it",
                      where, kOtherwise});
+    case End::out_of_wall_time:
+        throw Error({"Assimp has not ended after " +
+                         std::to_string(limits.wall_time / std::chrono::seconds(1)) + " s",
+                     where, kOtherwise});
+    case End::killed:
+        throw Error({"the process that reads the file was killed", where,
+                     "expected enough free memory: a system without any kills processes"});
     case End::out_of_memory:
     case End::too_long:
         throw Error(
