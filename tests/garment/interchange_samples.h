@@ -116,7 +116,7 @@ inline const std::string kCollada = R"dae(<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
  <asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
  <library_effects><effect id="e"><profile_COMMON><technique sid="common"><lambert/></technique></profile_COMMON></effect></library_effects>
- <library_materials><material id="satin" name="satin"><instance_effect url="#e"/></material><material id="lining" name="lining"><instance_effect url="#e"/></material></library_materials>
+ <library_materials><material id="m-0" name="satin"><instance_effect url="#e"/></material><material id="m-1" name="lining"><instance_effect url="#e"/></material></library_materials>
  <library_geometries><geometry id="g" name="cloth"><mesh>
   <source id="p"><float_array id="pa" count="24">0 0 0 50 0 0 50 0 50 0 0 50 100 0 0 100 0 50 125 0 25 75 0 75</float_array><technique_common><accessor source="#pa" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
   <source id="t"><float_array id="ta" count="16">0 0 0.5 0 0.5 0.5 0 0.5 1 0 1 0.5 1.25 0.25 0.75 0.75</float_array><technique_common><accessor source="#ta" count="8" stride="2"><param name="S" type="float"/><param name="T" type="float"/></accessor></technique_common></source>
@@ -124,7 +124,7 @@ inline const std::string kCollada = R"dae(<?xml version="1.0" encoding="utf-8"?>
   <polylist material="m0" count="2"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="TEXCOORD" source="#t" offset="1" set="0"/><vcount>4 5</vcount><p>0 0 1 1 2 2 3 3 3 3 2 2 5 5 7 7 3 3</p></polylist>
   <polylist material="m1" count="1"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="TEXCOORD" source="#t" offset="1" set="0"/><vcount>5</vcount><p>1 1 4 4 6 6 5 5 2 2</p></polylist>
  </mesh></geometry></library_geometries>
- <library_visual_scenes><visual_scene id="s"><node id="Front" name="Front"><translate>0 0 100</translate><instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m0" target="#satin"/><instance_material symbol="m1" target="#lining"/></technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+ <library_visual_scenes><visual_scene id="s"><node id="n-0" name="Front"><translate>0 0 100</translate><instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m0" target="#m-0"/><instance_material symbol="m1" target="#m-1"/></technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
  <scene><instance_visual_scene url="#s"/></scene>
 </COLLADA>
 )dae";

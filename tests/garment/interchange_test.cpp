@@ -115,6 +115,20 @@ TEST_F(Interchange, ColladaKeepsPolygonsUvsMaterialsAndUnits) {
         "file_units"));
 }
 
+TEST_F(Interchange, ColladaNamesBeforeIds) {
+    const auto first = [&](const std::string &what, const std::string &by) {
+        return read("n.dae", replaced(test::kCollada, what, by)).mesh.panel_label.at(0);
+    };
+    EXPECT_EQ(first("name=\"Front\"", "name=\"Front Panel\"").object, "Front Panel");
+    EXPECT_EQ(first("name=\"cloth\"", "name=\"Front Cloth\"").group, "Front Cloth");
+    EXPECT_EQ(first("name=\"satin\"", "name=\"Red Satin\"").material, "Red Satin");
+    // An id where there is no name
+    EXPECT_EQ(first(" name=\"Front\"", "").object, "n-0");
+    EXPECT_EQ(first("id=\"n-0\" name=\"Front\"", "sid=\"s-0\"").object, "s-0");
+    EXPECT_EQ(first("id=\"n-0\" name=\"Front\"", "").object, "");
+    EXPECT_EQ(first(" name=\"satin\"", "").material, "m-0");
+}
+
 TEST_F(Interchange, AMirroredInstanceIsTurnedOver) {
     const std::string node = R"(<node id="Back" name="Back"><scale>-1 1 1</scale>)"
                              R"(<instance_geometry url="#g"/></node></visual_scene>)";

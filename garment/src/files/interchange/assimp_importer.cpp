@@ -8,6 +8,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
 #include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
 
@@ -67,6 +68,7 @@ class AssimpImporter final : public Importer {
                                                    Assimp::Logger::Warn | Assimp::Logger::Err);
         Assimp::Importer importer;
         keep_importer_of(extension, importer);
+        importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
         const std::string name = "/mesh" + extension;
         importer.SetIOHandler(new OneFile(bytes, name));
         const aiScene *const scene = importer.ReadFile(name, 0);

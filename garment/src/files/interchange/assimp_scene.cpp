@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include <assimp/ColladaMetaData.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
@@ -53,6 +54,18 @@ glm::dmat4 matrix_of(const aiMatrix4x4 &m) {
 }
 
 std::string text_of(const aiString &text) { return {text.data, text.length}; }
+
+/// Of a node of a Collada file without a name the id or the sid. Empty where Assimp made one up.
+std::string name_of(const aiNode &node) {
+    const std::string name = text_of(node.mName);
+    if (!name.starts_with("$ColladaAutoName$"))
+        return name;
+    aiString id;
+    for (const char *const key : {AI_METADATA_COLLADA_ID, AI_METADATA_COLLADA_SID})
+        if (node.mMetaData && node.mMetaData->Get(key, id))
+            return text_of(id);
+    return {};
+}
 
 class SceneToMesh {
   public:
@@ -128,7 +141,7 @@ class SceneToMesh {
 
     /// A panel of a name that no other has.
     std::uint32_t add_panel(const aiNode &node, const aiMesh &mesh) {
-        PanelLabel label{.object = text_of(node.mName), .group = text_of(mesh.mName)};
+        PanelLabel label{.object = name_of(node), .group = text_of(mesh.mName)};
         if (mesh.mMaterialIndex < scene_.mNumMaterials)
             label.material = text_of(scene_.mMaterials[mesh.mMaterialIndex]->GetName());
         if (label.material == AI_DEFAULT_MATERIAL_NAME) // made up by Assimp
