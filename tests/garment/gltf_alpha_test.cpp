@@ -51,11 +51,52 @@ TEST(GltfAlpha, OfAPngBecomesOpacity) {
         EXPECT_EQ(file.findings[0].what,
                   "material 'silk' of panel 'square' has the alphaMode MASK");
     }
-    const MeshFile mirrored =
-        read_square(with_picture("BLEND"), R"("samplers":[{"wrapS":33648,"wrapT":33648}],)" +
-                                               picture(kRgba, R"(,"sampler":0)"));
-    EXPECT_TRUE(mirrored.opacities.at(0).mirrored_repeat);
-    EXPECT_FALSE(mirrored.opacities.at(0).cutoff);
+    EXPECT_FALSE(
+        read_square(with_picture("BLEND"), picture(kRgba)).opacities.at(0).cutoff.has_value());
+}
+
+TEST(GltfAlpha, IsRepeatedAsTheSamplerSays) {
+    constexpr int kRepeat = 10497, kMirror = 33648, kClamp = 33071;
+    const std::string edge = ", where the file has its edge", beyond = " beyond the picture";
+    struct Case {
+        float u, v; // the UVs go from 0 to here
+        int wrap_s, wrap_t;
+        bool mirrored;
+        std::string remark;
+    };
+    for (const Case &c : {
+             Case{1, 1, kMirror, kMirror, true, ""},
+             Case{2, 2, kMirror, kMirror, true, ""},
+             Case{2, 2, kRepeat, kRepeat, false, ""},
+             Case{1, 1, kClamp, kClamp, false, ""},
+             // Where the UVs do not leave the picture, it does not matter
+             Case{2, 1, kRepeat, kMirror, false, ""},
+             Case{1, 2, kRepeat, kMirror, true, ""},
+             Case{1, 2, kClamp, kRepeat, false, ""},
+             Case{2, 2, kRepeat, kMirror, false,
+                  ", repeated along v beyond the picture, where the file mirrors it"},
+             Case{2, 2, kMirror, kRepeat, true,
+                  ", mirrored along v beyond the picture, where the file repeats it"},
+             Case{2, 2, kRepeat, kClamp, false, ", repeated along v" + beyond + edge},
+             Case{2, 2, kClamp, kMirror, true, ", mirrored along u" + beyond + edge},
+             Case{1, 2, kRepeat, kClamp, false, ", repeated along v" + beyond + edge},
+             Case{2, 2, kClamp, kClamp, false,
+                  ", repeated along u" + beyond + edge + " and repeated along v" + beyond + edge},
+         }) {
+        const std::string members = R"("samplers":[{"wrapS":)" + std::to_string(c.wrap_s) +
+                                    R"(,"wrapT":)" + std::to_string(c.wrap_t) + "}]," +
+                                    picture(kRgba, R"(,"sampler":0)");
+        std::string buffer = square_buffer();
+        buffer.replace(48, 32, bytes_of<float>({0, c.v, c.u, c.v, c.u, 0, 0, 0}));
+        const MeshFile file =
+            parse_gltf(glb(square_with(members, "", with_picture("BLEND")), buffer), "m.glb");
+        const std::string place = std::to_string(c.wrap_s) + " " + std::to_string(c.wrap_t) + " " +
+                                  std::to_string(c.u) + " " + std::to_string(c.v);
+        EXPECT_EQ(file.opacities.at(0).mirrored_repeat, c.mirrored) << place;
+        EXPECT_EQ(file.findings.at(0).action,
+                  "its alpha becomes the opacity of these panels" + c.remark)
+            << place;
+    }
 }
 
 TEST(GltfAlpha, IsNothingWhereItIsOneEverywhere) {

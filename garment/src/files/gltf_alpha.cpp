@@ -1,6 +1,7 @@
 #include "files/gltf_alpha.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "files/png_alpha.h"
@@ -65,9 +66,10 @@ void GltfAlpha::note(const tinygltf::Primitive &primitive, const std::vector<glm
     Panels &of = panels_[primitive.material];
     of.names.push_back(panel);
     of.without_uv = of.without_uv || uv.empty();
-    of.beyond = of.beyond || std::ranges::any_of(uv, [](const glm::dvec2 &t) {
-                    return t != glm::clamp(t, glm::dvec2(0), glm::dvec2(1));
-                });
+    for (int axis : {0, 1})
+        of.beyond[axis] = of.beyond[axis] || std::ranges::any_of(uv, [&](const glm::dvec2 &t) {
+                              return t[axis] < 0.0 || t[axis] > 1.0;
+                          });
     const auto colour = primitive.attributes.find("COLOR_0");
     if (colour != primitive.attributes.end() && colour->second >= 0 &&
         static_cast<std::size_t>(colour->second) < model_.accessors.size())
@@ -114,6 +116,29 @@ void GltfAlpha::read_picture(const tinygltf::Texture &texture, FileOpacity &opac
     }
 }
 
+std::string GltfAlpha::follow_wrap(const tinygltf::Texture &texture, const glm::bvec2 &beyond,
+                                   FileOpacity &opacity) const {
+    std::array<int, 2> wrap{TINYGLTF_TEXTURE_WRAP_REPEAT, TINYGLTF_TEXTURE_WRAP_REPEAT};
+    const auto sampler = static_cast<std::size_t>(texture.sampler);
+    if (texture.sampler >= 0 && sampler < model_.samplers.size())
+        wrap = {model_.samplers[sampler].wrapS, model_.samplers[sampler].wrapT};
+    // Of two directions that differ, one that UVs leave the picture in, and that is not clamped
+    const bool by_t = beyond.y && (!beyond.x || wrap[0] == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
+    opacity.mirrored_repeat = wrap[by_t ? 1 : 0] == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
+    const int shown = opacity.mirrored_repeat ? TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT
+                                              : TINYGLTF_TEXTURE_WRAP_REPEAT;
+    std::string remark;
+    for (const std::size_t axis : {0u, 1u})
+        if (beyond[static_cast<int>(axis)] && wrap[axis] != shown)
+            remark += std::string(remark.empty() ? ", " : " and ") +
+                      (opacity.mirrored_repeat ? "mirrored" : "repeated") + " along " +
+                      (axis == 0 ? "u" : "v") + " beyond the picture, where the file " +
+                      (wrap[axis] == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? "has its edge"
+                       : wrap[axis] == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? "mirrors it"
+                                                                             : "repeats it");
+    return remark;
+}
+
 void GltfAlpha::report(MeshFile &file) const {
     for (const auto &[number, panels] : panels_) {
         const tinygltf::Material &material = model_.materials[static_cast<std::size_t>(number)];
@@ -140,13 +165,7 @@ void GltfAlpha::report(MeshFile &file) const {
                 read_picture(texture, opacity);
                 if (!opacity.picture.empty() && panels.without_uv)
                     throw NotShown{"a panel has no UVs"};
-                const auto sampler = static_cast<std::size_t>(texture.sampler);
-                const int wrap = texture.sampler >= 0 && sampler < model_.samplers.size()
-                                     ? model_.samplers[sampler].wrapS
-                                     : TINYGLTF_TEXTURE_WRAP_REPEAT;
-                opacity.mirrored_repeat = wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
-                if (wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE && panels.beyond)
-                    finding.action += ", repeated beyond the picture, where the file has its edge";
+                finding.action += follow_wrap(texture, panels.beyond, opacity);
             }
             if (opacity.picture.empty() && opacity.factor >= 1.0)
                 continue; // whole cloth

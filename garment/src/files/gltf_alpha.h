@@ -26,10 +26,14 @@ class GltfAlpha {
     struct Panels {
         std::vector<std::string> names{};
         bool without_uv = false;   ///< one of them
-        bool beyond = false;       ///< UVs outside of the picture
+        glm::bvec2 beyond{false};  ///< UVs outside of the picture, along u and along v
         bool vertex_alpha = false; ///< vertex colours with an alpha
     };
     void read_picture(const tinygltf::Texture &texture, FileOpacity &opacity) const;
+    /// Repeats the picture as its sampler says. Returns how that differs from the file, may be
+    /// empty.
+    std::string follow_wrap(const tinygltf::Texture &texture, const glm::bvec2 &beyond,
+                            FileOpacity &opacity) const;
     std::string picture_bytes(const tinygltf::Image &image) const;
 
     const tinygltf::Model &model_;
