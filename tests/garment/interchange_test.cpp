@@ -1,5 +1,7 @@
 #include "tsuya/garment/interchange.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <fstream>
 
@@ -184,6 +186,15 @@ TEST_F(Interchange, StlAsText) {
     EXPECT_NE(no_uv->action.find("--grain"), std::string::npos);
 }
 
+TEST_F(Interchange, StlAsTextInUpperCase) {
+    std::string text = facets("front", 0);
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const MeshFile file = read("a.stl", replaced(text, "FRONT", "Front"));
+    EXPECT_EQ(file.mesh.face_count(), 2u);
+    EXPECT_EQ(file.mesh.panel_name, (Names{"Front"}));
+}
+
 std::string binary_stl(std::uint32_t declared) {
     std::string bytes(80, ' ');
     const auto append = [&](const auto &value) {
@@ -203,7 +214,33 @@ TEST_F(Interchange, StlAsNumbers) {
     const MeshFile file = read("b.STL", binary_stl(2));
     EXPECT_EQ(file.mesh.face_count(), 2u);
     EXPECT_EQ(file.mesh.position.size(), 4u);
-    EXPECT_THROW(read("c.stl", binary_stl(0xffffffff)), Error);
+    // What follows the last facet is not read; a title may begin as a text does
+    for (const std::string &after : {std::string("\n"), std::string(777, 'x')})
+        EXPECT_EQ(read("b.stl", binary_stl(2) + after).mesh.face_count(), 2u);
+    EXPECT_EQ(read("b.stl", "solid" + binary_stl(2).substr(5)).mesh.face_count(), 2u);
+}
+
+TEST_F(Interchange, StlOfAnotherSizeThanItsCountIsAnError) {
+    const auto expect = [&](const std::string &bytes, const std::string &what,
+                            const std::string &accepted) {
+        try {
+            read("c.stl", bytes);
+            ADD_FAILURE() << what;
+        } catch (const Error &error) {
+            EXPECT_TRUE(error.problems()[0].where.ends_with("c.stl"));
+            EXPECT_NE(error.problems()[0].what.find(what), std::string::npos) << error.what();
+            EXPECT_EQ(error.problems()[0].accepted, accepted);
+        }
+    };
+    const std::string title = "solid";
+    expect(binary_stl(3), "counts 3 facets, but it has 184 bytes",
+           "expected 234 bytes for this count");
+    expect(title + binary_stl(3).substr(title.size()), "counts 3 facets, but it has 184 bytes",
+           "expected 234 bytes for this count");
+    expect(binary_stl(0xffffffff), "counts 4294967295 facets",
+           "expected 214748364834 bytes for this count");
+    expect(binary_stl(0), "counts 0 facets, but it has 184 bytes", "expected a mesh with faces");
+    expect("no such thing", "too short", "expected a header of 84 bytes, where it has 13");
 }
 
 /// Reads, or is an Error that names the file.

@@ -7,6 +7,7 @@
 #include "files/interchange/child_process.h"
 #include "files/interchange/importer.h"
 #include "files/interchange/mesh_bytes.h"
+#include "files/interchange/stl_bytes.h"
 #include "mesh/stop.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -58,11 +59,13 @@ ChildLimits limits_for(std::size_t bytes) {
 } // namespace
 
 MeshFile read_interchange(const std::filesystem::path &path, const Progress &progress) {
-    const std::string where = path.string(), bytes = read_file(path);
-    std::string extension = path.extension().string();
+    const std::string where = path.string();
+    std::string bytes = read_file(path), extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const Importer &import = importer(where);
+    if (extension == ".stl")
+        bytes = stl_bytes(std::move(bytes), where);
     const ChildLimits limits = limits_for(bytes.size());
     const ChildResult result = run_in_child([&] { return bytes_of(import.read(bytes, extension)); },
                                             limits, where, progress);
