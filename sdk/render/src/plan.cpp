@@ -52,9 +52,9 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
     skip(scene.environment && scene.environment->radiance > 0 && !scene.environment->picture,
          "the environment is even", "its shadow rays: the surface's own sampling meets it");
     // With holes, a ray to the environment looks for what it meets
-    p.short_last_rays =
-        skip(!p.environment || scene.opacities.empty(), "what a path's last ray meets beside lights",
-             p.environment ? "finding the nearest hit" : "tracing it where it points at no light");
+    p.short_last_rays = skip(
+        !p.environment || scene.opacities.empty(), "what a path's last ray meets beside lights",
+        p.environment ? "finding the nearest hit" : "tracing it where it points at no light");
     skip(scene.opacities.empty(), "no cloth has holes", "looking for them along every ray");
     skip(settings.aovs.empty(), "no AOVs were asked for", "their memory and writing");
     return p;
