@@ -30,7 +30,7 @@ struct Render final : Command {
     std::vector<int> crop{};
     std::vector<std::string> aovs{};
     double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
-    bool resume = false, explains = false;
+    bool resume = false, explains = false, denoises = false;
 
     void options(Options &o) override {
         o.argument(&scene, "SCENE.toml", "scene file").required();
@@ -68,6 +68,10 @@ struct Render final : Command {
                  "number of frames of a scene that moves, each with results of its own: "
                  "OUT-0000.exr and on")
             .range(1, 9999);
+        o.flag(
+            "--denoise", &denoises,
+            "filter the noise out of the finished picture, which is then one to look at, not one "
+            "to measure");
         o.option("--tolerance-px", &tolerance_px, "PIXELS",
                  "largest distance of the triangles from the limit surface, in the picture")
             .range(1e-3, 1e3);
@@ -194,6 +198,7 @@ struct Render final : Command {
         settings.channels = channels.value_or(settings.channels);
         settings.threads = threads.value_or(settings.threads);
         settings.seed = seed.value_or(settings.seed);
+        settings.denoise = denoises || settings.denoise;
         if (!aovs.empty())
             settings.aovs = aovs;
         if (!crop.empty())

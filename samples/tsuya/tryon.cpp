@@ -23,6 +23,7 @@ struct TryOn final : Command {
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
+    bool keeps_noise = false;
     const Option *dye = nullptr;
 
     void options(Options &o) override {
@@ -110,6 +111,9 @@ struct TryOn final : Command {
             .excludes(relative);
         o.option("--channels", &job.render.channels, "K", "number of spectral channels")
             .one_of({"8", "16", "32"});
+        o.flag("--no-denoise", &keeps_noise,
+               "leave the noise in the pictures, as for measurements; pictures of one sample per "
+               "pixel are never denoised");
         add_threads(o, job.render.threads);
         o.option("--seed", &job.render.seed, "N", "random seed");
     }
@@ -139,6 +143,7 @@ struct TryOn final : Command {
         job.render.stop.relative_error = error;
         if (samples)
             job.render.stop = {.samples_per_pixel = *samples};
+        job.render.denoise = !keeps_noise && samples != 1; // one sample does not tell its noise
         scene::TryOnResult result;
         detail::run_with_threads(job.render.threads,
                                  [&] { result = scene::run(job, console.progress()); });

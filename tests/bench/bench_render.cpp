@@ -1,8 +1,8 @@
 // Error of pictures against the processor time of their rendering, as CSV.
-//   bench_render errors SCENES SAMPLES_OF_REFERENCES FOLDER [PART_OF_NAME]   FOLDER keeps
-//   references bench_render asked SCENES SAMPLES_OF_REFERENCES FOLDER [PART_OF_NAME]   by the error
-//   asked for bench_render growth                                        time by the number of
-//   lights
+//   bench_render errors|asked|denoised SCENES SAMPLES_OF_REFERENCES FOLDER [PART_OF_NAME]
+//   bench_render growth
+// errors: by the number of samples; asked: by the error asked for; denoised: before and after the
+// denoiser; FOLDER keeps references. growth: time by the number of lights.
 // Times are of the whole process, user and system, without the loading of the scene's files.
 
 #include <sys/resource.h>
@@ -39,11 +39,14 @@ struct Timed {
     double seconds = 0;
 };
 
-Timed timed(const bench::RenderScene &s, const StopRule &stop, std::uint32_t seed) {
+Timed timed(const bench::RenderScene &s, const StopRule &stop, std::uint32_t seed,
+            bool denoise = false) {
     const double start = cpu_seconds();
-    Timed t{.result =
-                render(s.scene,
-                       {.stop = stop, .channels = 8, .max_bounces = s.max_bounces, .seed = seed})};
+    Timed t{.result = render(s.scene, {.stop = stop,
+                                       .channels = 8,
+                                       .max_bounces = s.max_bounces,
+                                       .seed = seed,
+                                       .denoise = denoise})};
     t.seconds = cpu_seconds() - start;
     return t;
 }
@@ -162,6 +165,33 @@ void errors(bool asked, const std::filesystem::path &scenes, int reference_sampl
     }
 }
 
+// For every scene and number of samples a line: as it was traced, and denoised.
+void denoised(const std::filesystem::path &scenes, int reference_samples,
+              const std::filesystem::path &folder, const std::string &part) {
+    std::cout << "scene,samples,cpu_seconds,cpu_seconds_denoised,rel_mse,rel_mse_denoised,above_2,"
+                 "above_2_denoised,above_3,above_3_denoised,change_of_mean\n";
+    for (const bench::RenderScene &s : bench::denoised_scenes(scenes)) {
+        if (s.name.find(part) == std::string::npos)
+            continue;
+        const Picture exact = reference(s, reference_samples, folder);
+        const int width = s.scene.camera.width;
+        for (const int samples : {16, 64, 256}) {
+            // An error that is not reached: the same samples, whether denoised or not
+            const StopRule stop{.samples_per_pixel = samples, .relative_error = 1e-9};
+            const Timed plain = timed(s, stop, 0), filtered = timed(s, stop, 0, true);
+            const Picture before = picture_of(plain.result.image);
+            const Picture after = picture_of(filtered.result.image);
+            std::cout << s.name << "," << samples << "," << plain.seconds << "," << filtered.seconds
+                      << "," << relative_mean_square(before, exact) << ","
+                      << relative_mean_square(after, exact) << ","
+                      << specks(before, exact, width, 2) << "," << specks(after, exact, width, 2)
+                      << "," << specks(before, exact, width, 3) << ","
+                      << specks(after, exact, width, 3) << ","
+                      << *filtered.result.stats.denoise_change << std::endl;
+        }
+    }
+}
+
 void growth() {
     std::cout << "lights,cpu_seconds\n";
     for (const int lights : {1, 4, 16, 64, 256, 1024}) {
@@ -184,11 +214,16 @@ int main(int count, char **arguments) {
                    args.size() > 4 ? args[4] : "");
             return EXIT_SUCCESS;
         }
+        if (args.size() >= 4 && args[0] == "denoised") {
+            denoised(args[1], std::stoi(args[2]), args[3], args.size() > 4 ? args[4] : "");
+            return EXIT_SUCCESS;
+        }
         if (args.size() == 1 && args[0] == "growth") {
             growth();
             return EXIT_SUCCESS;
         }
-        std::cerr << "bench_render errors|asked SCENES SAMPLES FOLDER [PART_OF_NAME] | growth\n";
+        std::cerr << "bench_render errors|asked|denoised SCENES SAMPLES FOLDER [PART_OF_NAME] | "
+                     "growth\n";
     } catch (const std::exception &error) {
         std::cerr << error.what() << "\n";
     }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bench/bench_scene.h"
+#include "tsuya/color/dye.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/scene_file.h"
 
@@ -98,6 +99,23 @@ std::vector<RenderScene> render_scenes(const std::filesystem::path &scenes) {
     const scene::SceneFile studio = scene::read_scene_file(scenes / "studio.scene.toml");
     list.push_back({"studio", build_scene(studio).scene, studio.render.max_bounces});
     list.push_back({"dress", sample_scene(1, 100, 125), RenderSettings{}.max_bounces});
+    return list;
+}
+
+std::vector<RenderScene> denoised_scenes(const std::filesystem::path &scenes) {
+    std::vector<RenderScene> list;
+    Scene dress = sample_scene(1, 160, 200);
+    list.push_back({"crimson dress", dress, RenderSettings{}.max_bounces});
+    dress.fabrics[0].colours.dye_all(parse_dye("white"));
+    list.push_back({"white dress", std::move(dress), RenderSettings{}.max_bounces});
+    const auto add = [&](const std::string &name, const std::filesystem::path &file) {
+        scene::SceneFile read = scene::read_scene_file(file);
+        read.framing.width = 160;
+        read.framing.height = 200;
+        list.push_back({name, build_scene(read).scene, read.render.max_bounces});
+    };
+    add("printed dress", scene::data_folder() / "scenes/print.scene.toml");
+    add("studio dress", scenes / "studio.scene.toml");
     return list;
 }
 

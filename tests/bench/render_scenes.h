@@ -25,4 +25,8 @@ Scene skirt(const std::string &fabric, int lights, int size);
 // \param scenes the folder of the scene files of the benchmarks
 std::vector<RenderScene> render_scenes(const std::filesystem::path &scenes);
 
+// Sample dresses as they are looked at: tried on in white and in crimson, printed, and in the
+// studio of the benchmarks.
+std::vector<RenderScene> denoised_scenes(const std::filesystem::path &scenes);
+
 } // namespace tsuya::bench

@@ -160,7 +160,8 @@ TEST(SceneFile, ReadsEveryKey) {
         "[lights.k]\ncentre = [0, 1, 2]\ntarget = [0, 1, 0]\nwidth = 2\nheight = 3\nradiance = 7\n"
         "group = \"sun\"\n"
         "[environment]\nradiance = 0.5\ngroup = \"sun\"\nvisible = false\n"
-        "[render]\nerror = 0.02\nseconds = 5\nchannels = 8\nmax_bounces = 3\nseed = 4294967295\n"
+        "[render]\nerror = 0.02\nseconds = 5\nchannels = 8\nmax_bounces = 3\nseed = "
+        "4294967295\ndenoise = true\n"
         "aovs = [\"depth\"]\n"
         "[output]\nlamps = [\"A\", \"D65\"]\nadapt = \"cat02\"\nview = \"Plain\"\nexposure = -1\n");
     ASSERT_TRUE(file.camera);
@@ -209,6 +210,7 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(file.render.stop.seconds, 5.0);
     EXPECT_EQ(file.render.channels, 8);
     EXPECT_EQ(file.render.max_bounces, 3);
+    EXPECT_TRUE(file.render.denoise);
     EXPECT_EQ(file.render.seed, 4294967295u); // as --seed
     EXPECT_EQ(file.render.aovs, std::vector<std::string>{"depth"});
     EXPECT_EQ(file.output.lamps.at(1).name, "D65");

@@ -188,6 +188,7 @@ void SceneReader::read_render() {
             section->problem("channels", std::to_string(*channels) + " channels",
                              "expected 8, 16 or 32");
     }
+    render.denoise = section->flag("denoise").value_or(false);
     const std::vector<std::string> known = aov_names();
     render.aovs = section->texts("aovs").value_or(std::vector<std::string>{});
     for (const std::string &aov : render.aovs)

@@ -13,6 +13,17 @@ inline constexpr std::size_t kMostChannels = 32;
 // One value a channel, for any number of channels.
 using ChannelValues = std::array<float, kMostChannels>;
 
+// Means over the first, middle and last third of k channels.
+inline std::array<float, 3> thirds(const float *values, int k) {
+    std::array<float, 3> means{};
+    for (int band = 0; band < 3; ++band) {
+        const int from = band * k / 3, to = (band + 1) * k / 3;
+        for (int i = from; i < to; ++i)
+            means[static_cast<std::size_t>(band)] += values[i] / static_cast<float>(to - from);
+    }
+    return means;
+}
+
 template <int K> struct Channels {
     std::array<float, K> v{};
 

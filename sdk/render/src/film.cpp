@@ -7,6 +7,8 @@
 #include <numeric>
 #include <string>
 
+#include "denoise_guide.h"
+
 namespace tsuya {
 namespace {
 
@@ -31,17 +33,24 @@ std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &setti
     const std::uint64_t transport =
         scene.light_groups.size() * static_cast<std::uint64_t>(settings.channels);
     // In the film, which has the difference too, and in the picture that is made of it
-    const std::uint64_t floats = 2 * (transport + aovs) + 1;
+    std::uint64_t floats = 2 * (transport + aovs) + 1;
+    if (settings.denoise)
+        floats += transport + kFeatures + GuidePlanes::kPlanes;
     return floats * sizeof(float) * static_cast<std::uint64_t>(scene.camera.width) *
            static_cast<std::uint64_t>(scene.camera.height);
 }
 
 Film::Film(const Scene &scene, const RenderSettings &settings)
     : width(scene.camera.width), height(scene.camera.height), channels(settings.channels),
-      groups(scene.light_groups.size()), all_split(settings.stop.relative_error.has_value()) {
+      groups(scene.light_groups.size()),
+      all_split(settings.stop.relative_error || settings.denoise) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     sum.resize(pixels * groups * static_cast<std::size_t>(channels));
     difference.resize(pixels);
+    if (settings.denoise) {
+        odd_sum.resize(sum.size());
+        features.resize(pixels * kFeatures);
+    }
     for (const std::string &aov : settings.aovs)
         aov_sums.push_back(Image::make(width, height, channels_of(aov)));
     const auto [x0, y0, x1, y1] = settings.crop.value_or(std::array<int, 4>{0, 0, width, height});
@@ -101,6 +110,14 @@ std::uint64_t Film::samples() const {
     for (std::size_t t = 0; t < tiles.size(); ++t)
         n += static_cast<std::uint64_t>(done[t]) * pixels_of(tiles[t]);
     return n;
+}
+
+std::int32_t Film::samples_at(int x, int y) const {
+    const auto across =
+        static_cast<std::size_t>((tiles.back().x1 - tiles.front().x0 + kTileSize - 1) / kTileSize);
+    const auto column = static_cast<std::size_t>((x - tiles.front().x0) / kTileSize);
+    const auto row = static_cast<std::size_t>((y - tiles.front().y0) / kTileSize);
+    return done[row * across + column];
 }
 
 SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) const {

@@ -13,6 +13,9 @@ namespace tsuya {
 // Errors count against at least this transport: a twentieth of a white diffuser's.
 inline constexpr double kDark = 0.05;
 
+// What guides the denoiser: normal, warp, albedo in three bands of wavelength, depth, object.
+inline constexpr std::size_t kFeatures = 11;
+
 struct Tile {
     int x0, y0, x1, y1;
 };
@@ -35,6 +38,9 @@ struct Film {
     // difference tells the error. Else one pixel of four is: one sequence has the smaller error.
     bool all_split;
     std::vector<Image> aov_sums{};
+    // For the denoiser, empty where there is none: of the samples of odd index, [y][x][group][k],
+    // and of what the camera sees, [y][x][kFeatures].
+    std::vector<float> odd_sum{}, features{};
     std::uint64_t not_finite = 0; // samples left out of the sums
     std::uint64_t rays = 0;
     double seconds = 0; // of tracing, over all runs
@@ -61,6 +67,8 @@ struct Film {
     double share_within(double error) const;
     // Means of the sums.
     SpectralImage develop(const Scene &scene, const RenderSettings &settings) const;
+    // Of a pixel in a tile.
+    std::int32_t samples_at(int x, int y) const;
     // See all_split.
     bool is_split(int x, int y) const { return all_split || (x % 2 == 0 && y % 2 == 0); }
     std::size_t at(int x, int y) const {

@@ -7,7 +7,7 @@
 namespace tsuya {
 namespace {
 
-constexpr const char *kKind = "render 4";
+constexpr const char *kKind = "render 5";
 
 // What is kept of a film, in order: for the writer (a constant film) and the reader.
 template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
@@ -18,6 +18,8 @@ template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
     file.array(std::span(film.done));
     file.array(std::span(film.sum));
     file.array(std::span(film.difference));
+    file.array(std::span(film.odd_sum));
+    file.array(std::span(film.features));
     for (auto &aov : film.aov_sums)
         file.array(std::span(aov.data));
 }

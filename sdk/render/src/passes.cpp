@@ -45,6 +45,19 @@ void add_first_hit(Film &film, const RenderSettings &settings, int x, int y,
     }
 }
 
+void add_features(Film &film, int x, int y, const FirstHit &first) {
+    if (!first.hit)
+        return;
+    float *to = film.features.data() + film.at(x, y) * kFeatures;
+    for (const glm::vec3 &direction : {first.normal, first.warp})
+        for (int c = 0; c < 3; ++c)
+            *to++ += direction[c];
+    for (const float band : first.albedo)
+        *to++ += band;
+    *to++ += first.distance;
+    *to += static_cast<float>(first.object + 1);
+}
+
 // All passes of one render with K channels.
 template <int K> class Passes {
   public:
@@ -146,11 +159,15 @@ template <int K> class Passes {
                 samplers.clear();
                 for (int s = from; s < to; ++s)
                     samplers.push_back(sampler_of(x, y, static_cast<std::uint32_t>(s)));
-                first.assign(settings_.aovs.empty() ? 0 : samples, FirstHit{});
+                const bool wanted = settings_.denoise || !settings_.aovs.empty();
+                first.assign(wanted ? samples : 0, FirstHit{});
                 tracer.trace(x, y, samplers, radiance.data(), film_.groups,
                              first.empty() ? nullptr : first.data());
-                for (const FirstHit &hit : first)
+                for (const FirstHit &hit : first) {
                     add_first_hit(film_, settings_, x, y, hit);
+                    if (settings_.denoise)
+                        add_features(film_, x, y, hit);
+                }
                 for (std::size_t i = 0; i < samples; ++i) {
                     const bool even = (static_cast<std::size_t>(from) + i) % 2 == 0;
                     not_finite += add(x, y, even ? 1.0f : -1.0f,
@@ -184,6 +201,12 @@ template <int K> class Passes {
             for (std::size_t k = 0; k < K; ++k)
                 *to++ += c.v[k];
         film_.difference[film_.at(x, y)] += sign * mean;
+        if (settings_.denoise && sign < 0) {
+            float *odd = film_.odd_sum.data() + (film_.pixel(x, y) - film_.sum.data());
+            for (const Channels<K> &c : radiance)
+                for (std::size_t k = 0; k < K; ++k)
+                    *odd++ += c.v[k];
+        }
         return true;
     }
 

@@ -317,12 +317,18 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
         if (!point.is_finite())
             return spoil(path.radiance);
         if (path.vertex == 0 && first)
-            *first = {true, hit.distance, point.frame.normal, point.warp, hit.object};
+            *first = {.hit = true,
+                      .distance = hit.distance,
+                      .normal = point.frame.normal,
+                      .warp = point.warp,
+                      .object = hit.object};
         const Vertex vertex(scene_, point, path.direction);
         std::optional<Colours> printed;
         if (scene_.is_printed(point))
             printed = scene_.printed(point, hit.distance, path.vertex == 0);
         const Colours &colours = printed ? *printed : scene_.colours[point.colours];
+        if (path.vertex == 0 && first)
+            first->albedo = thirds(colours.dye.data(), K);
 
         // Direct light, found by sampling the lights
         sample_lights(path, vertex, colours);

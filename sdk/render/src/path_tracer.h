@@ -1,6 +1,7 @@
 #pragma once
 // The path tracer: one sample of one pixel.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,6 +19,7 @@ struct FirstHit {
     bool hit = false;
     float distance = 0;
     glm::vec3 normal{}, warp{};
+    std::array<float, 3> albedo{}; // of the dye, in three bands of wavelength
     std::uint32_t object = 0;
 };
 

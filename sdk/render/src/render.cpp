@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "denoise.h"
 #include "film.h"
 #include "film_keeper.h"
 #include "passes.h"
@@ -31,6 +32,8 @@ void check_settings(const Scene &scene, const RenderSettings &s) {
     problems.need(s.stop.samples_per_pixel >= 1 && s.stop.samples_per_pixel <= 65536,
                   std::to_string(s.stop.samples_per_pixel) + " samples per pixel", "spp",
                   "expected 1 to 65536");
+    problems.need(!s.denoise || s.stop.samples_per_pixel >= 2, "1 sample per pixel to be denoised",
+                  "spp", "expected at least 2, whose difference tells the noise");
     problems.need(!s.stop.relative_error || above_zero(*s.stop.relative_error),
                   "the relative error is " + std::to_string(s.stop.relative_error.value_or(0)),
                   "error", "expected a number above 0, such as 0.02");
@@ -124,9 +127,19 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     } catch (const Interrupted &) {
         // Stopped while the scene was prepared: the film has what an earlier run left
     }
-    const bool interrupted = progress.stopped();
+    bool interrupted = progress.stopped();
     keeper.finish();
     RenderResult result = result_so_far();
+    if (settings.denoise && !interrupted) {
+        result.stats.denoise_change = denoise(
+            film, scene.camera.vertical_angle / scene.camera.height, result.image, progress);
+        interrupted = !result.stats.denoise_change;
+        if (interrupted)
+            result = result_so_far();
+        else
+            result.image.metadata["denoised"] = std::to_string(*result.stats.denoise_change);
+        result.stats.seconds = seconds_since(start);
+    }
     result.stats.interrupted = interrupted;
     if (!interrupted)
         result.image.metadata["render_key"] = render_key(keeper.fingerprint(), settings.stop);

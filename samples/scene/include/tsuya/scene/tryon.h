@@ -23,8 +23,9 @@
 namespace tsuya::scene {
 
 /// Default quality of the picture of a try-on: the mean error of the pixels
-/// of each part of it, as a share of its value, and the most samples that a pixel may take.
-inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.02};
+/// of each part of it before it is denoised, as a share of its value, and the most samples that a
+/// pixel may take.
+inline constexpr StopRule kTryOnQuality{.samples_per_pixel = 512, .relative_error = 0.06};
 
 /// Throws Error for dyes that a try-on refuses whatever files there are: an unknown name, two of
 /// one name.
@@ -68,7 +69,7 @@ struct TryOn {
     double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
     int width = 800;
     int height = 1000;
-    RenderSettings render{.stop = kTryOnQuality};
+    RenderSettings render{.stop = kTryOnQuality, .denoise = true};
     DisplayOptions look = default_look();
     std::filesystem::path output{}; ///< a folder; made where it is missing
 };

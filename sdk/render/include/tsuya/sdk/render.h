@@ -42,6 +42,11 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::optional<std::array<int, 4>> crop{}; ///< x0, y0, x1, y1 in pixels, half open
     std::vector<std::string> aovs{};          ///< names of AOVs, see aov_names
+    /// Filters the noise out of the finished picture, guided by what the camera sees: for pictures
+    /// to be looked at, not for measurements. Every light group and channel of a pixel is filtered
+    /// by the same weights, so that the picture can be relit as before. Needs 2 samples per pixel.
+    /// An interrupted render and snapshots are not filtered, nor are the AOVs.
+    bool denoise = false;
     /// false: do even what the plan shows to be idle; the picture must not change
     bool skip = true;
     /// The file in which a render keeps what it has; empty: none. Replaced atomically while it
@@ -79,6 +84,9 @@ struct RenderStats {
     std::optional<double> error_asked{}; ///< StopRule::relative_error
     /// The part of the picture that reached it; 1 where none was asked for.
     double error_reached_share = 1;
+    /// By which share RenderSettings::denoise changed the mean of the picture; empty where it was
+    /// not done. The errors are those of the picture before.
+    std::optional<double> denoise_change{};
     std::uint64_t rays = 0;
     std::uint64_t not_finite = 0; ///< samples left out because they were NaN or infinite
     std::uint64_t triangles = 0;

@@ -145,7 +145,7 @@ template <class F, detail::MaybeConst<StopRule> T> void each_field(F &&f, T &sto
 
 template <class F, detail::MaybeConst<RenderSettings> T> void each_field(F &&f, T &settings) {
     // The last two are calls to the caller and hold no value
-    [[maybe_unused]] auto &[stop, channels, max_bounces, threads, seed, crop, aovs, skip,
+    [[maybe_unused]] auto &[stop, channels, max_bounces, threads, seed, crop, aovs, denoise, skip,
                             checkpoint, checkpoint_seconds, resume, snapshot_wanted, snapshot] =
         settings;
     f(detail::Field{.key = "stop", .in_picture = false}, stop);
@@ -155,6 +155,7 @@ template <class F, detail::MaybeConst<RenderSettings> T> void each_field(F &&f, 
     f(detail::Field{"seed"}, seed);
     f(detail::Field{"crop"}, crop);
     f(detail::Field{"aovs"}, aovs);
+    f(detail::Field{"denoise"}, denoise);
     f(detail::Field{"skip"}, skip);
     f(detail::Field{.key = "checkpoint", .in_picture = false}, checkpoint);
     f(detail::Field{.key = "checkpoint_seconds", .in_picture = false}, checkpoint_seconds);
