@@ -41,7 +41,8 @@ struct Render final : Command {
         Option &mean =
             o.option("--error", &error, "E",
                      "render each part of the picture until the mean error of its pixels "
-                     "is below this share of its value")
+                     "is below this share of its value (dark parts: of a twentieth of a bright "
+                     "part's)")
                 .range(1e-6, 1);
         Option &time = o.option("--time", &seconds, "S", "render for S seconds").range(1e-3, 1e6);
         spp.excludes(mean).excludes(time);

@@ -104,7 +104,7 @@ struct TryOn final : Command {
         const Option &relative =
             o.option("--error", &error, "E",
                      "render each part of the picture until the mean error of its pixels is below "
-                     "this share of its value")
+                     "this share of its value (dark parts: of a twentieth of a bright part's)")
                 .positive();
         o.option("--spp,--samples", &samples, "N", "samples per pixel, the same everywhere")
             .range(1, 65536)

@@ -241,6 +241,30 @@ TEST(Promises, ShortLastRaysChangeNothing) {
     }
 }
 
+// How strong the lights are is a matter of exposure: the same samples, wherever they are dim.
+TEST(Promises, ErrorRuleDoesNotDependOnTheStrengthOfTheLights) {
+    Scene scene = folded_satin(32, 32);
+    RenderSettings settings = quick(512);
+    settings.stop.relative_error = 0.02;
+    const RenderResult bright = render(scene, settings);
+    constexpr float kDim = 1.0f / 128;
+    for (RectangleLight &light : scene.rectangles)
+        light.radiance *= kDim;
+    if (scene.environment)
+        scene.environment->radiance *= kDim;
+    const RenderResult dim = render(scene, settings);
+    EXPECT_EQ(dim.stats.samples_per_pixel, bright.stats.samples_per_pixel);
+    EXPECT_EQ(dim.stats.relative_error, bright.stats.relative_error);
+    EXPECT_GT(bright.stats.samples_per_pixel, 16);
+
+    // What was not reached is told
+    settings.stop.samples_per_pixel = 16;
+    const std::vector<Problem> warnings = render(scene, settings).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].what.find("did not reach the error of 0.02"), std::string::npos)
+        << warnings[0].what;
+}
+
 // An error rule spends samples where they are needed, and what it promises is there: the difference
 // from a picture with many more samples.
 TEST(Promises, ErrorRuleStopsEarly) {

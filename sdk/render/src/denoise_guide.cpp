@@ -47,7 +47,8 @@ GuidePlanes::GuidePlanes(const Film &film, double pixel_angle)
 }
 
 void GuidePlanes::take(const Film &film, const Tile &tile, std::int32_t samples) {
-    const auto n = static_cast<float>(samples), odd = static_cast<float>(samples / 2);
+    const std::int32_t of_odd_index = samples / 2;
+    const auto n = static_cast<float>(samples), odd = static_cast<float>(of_odd_index);
     const auto groups = static_cast<float>(film.groups);
     for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) {

@@ -82,7 +82,8 @@ double Film::relative_error(std::size_t t) const {
     if (done[t] < 2)
         return std::numeric_limits<double>::infinity();
     const TileError e = tile_error(t);
-    return e.errors / std::max(e.values, kDark * e.pixels);
+    const double values = std::max(e.values, dark * e.pixels);
+    return values > 0 ? e.errors / values : 0;
 }
 
 double Film::relative_error() const {
@@ -92,8 +93,23 @@ double Film::relative_error() const {
             const TileError e = tile_error(t);
             total.errors += e.errors;
             total.values += e.values;
+            total.pixels += e.pixels;
         }
+    if (total.pixels == 0)
+        return std::numeric_limits<double>::infinity();
     return total.values > 0 ? total.errors / total.values : 0;
+}
+
+double Film::bright_value() const {
+    std::vector<double> values;
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+        if (const TileError e = tile_error(t); e.pixels > 0)
+            values.push_back(e.values / e.pixels);
+    if (values.empty())
+        return 0;
+    const auto bright = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 9 / 10);
+    std::nth_element(values.begin(), bright, values.end());
+    return *bright;
 }
 
 double Film::share_within(double error) const {
@@ -103,6 +119,13 @@ double Film::share_within(double error) const {
         within += relative_error(t) <= error ? pixels_of(tiles[t]) : 0;
     }
     return static_cast<double>(within) / static_cast<double>(all);
+}
+
+double Film::samples_per_pixel() const {
+    std::uint64_t pixels = 0;
+    for (const Tile &tile : tiles)
+        pixels += pixels_of(tile);
+    return static_cast<double>(samples()) / static_cast<double>(pixels);
 }
 
 std::uint64_t Film::samples() const {

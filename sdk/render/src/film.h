@@ -10,7 +10,7 @@
 
 namespace tsuya {
 
-// Errors count against at least this transport: a twentieth of a white diffuser's.
+// Errors count against at least this share of a bright part's value, see Film::bright_value.
 inline constexpr double kDark = 0.05;
 
 // What guides the denoiser: normal, warp, albedo in three bands of wavelength, depth, object.
@@ -41,6 +41,9 @@ struct Film {
     // For the denoiser, empty where there is none: of the samples of odd index, [y][x][group][k],
     // and of what the camera sees, [y][x][kFeatures].
     std::vector<float> odd_sum{}, features{};
+    // kDark of bright_value after the first pass: what is rendered must not depend on how far
+    // other tiles are. 0 before.
+    double dark = 0;
     std::uint64_t not_finite = 0; // samples left out of the sums
     std::uint64_t rays = 0;
     double seconds = 0; // of tracing, over all runs
@@ -56,13 +59,16 @@ struct Film {
     }
     // Traced so far, those that are not finite too.
     std::uint64_t samples() const;
+    double samples_per_pixel() const; // the mean
     // Estimate of the mean absolute error of the pixels of a tile over their mean value, or over
-    // kDark where they are darker; infinite before there are two samples. Of pixels that are split,
-    // the samples of even and of odd index are independent estimates: half their difference is
-    // distributed as the error of their mean.
+    // `dark` where they are darker; infinite before there are two samples. Of pixels that are
+    // split, the samples of even and of odd index are independent estimates: half their difference
+    // is distributed as the error of their mean.
     double relative_error(std::size_t tile) const;
-    // The same for the whole picture.
+    // The same for the whole picture; infinite where no pixel is split.
     double relative_error() const;
+    // Of a tile: a tenth of them are brighter (not the brightest, which may show a lamp).
+    double bright_value() const;
     // The part of the picture in tiles whose error is at most this.
     double share_within(double error) const;
     // Means of the sums.

@@ -15,6 +15,7 @@ template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
     file.value(film.rays);
     file.value(film.seconds);
     file.value(film.all_split);
+    file.value(film.dark);
     file.array(std::span(film.done));
     file.array(std::span(film.sum));
     file.array(std::span(film.difference));

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
+#include <iomanip>
+#include <sstream>
 
 #include "denoise.h"
 #include "film.h"
@@ -85,8 +86,7 @@ void check_memory(const Scene &scene, const RenderSettings &settings) {
 RenderResult result_of(const Film &film, const Scene &scene, const RenderSettings &settings) {
     RenderResult result{.image = film.develop(scene, settings)};
     RenderStats &stats = result.stats;
-    stats.samples_per_pixel = std::accumulate(film.done.begin(), film.done.end(), 0.0) /
-                              static_cast<double>(film.done.size());
+    stats.samples_per_pixel = film.samples_per_pixel();
     stats.relative_error = film.relative_error();
     stats.error_asked = settings.stop.relative_error;
     if (stats.error_asked)
@@ -141,11 +141,18 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
         result.stats.seconds = seconds_since(start);
     }
     result.stats.interrupted = interrupted;
-    if (!interrupted)
+    if (!interrupted && !settings.checkpoint.empty())
         result.image.metadata["render_key"] = render_key(keeper.fingerprint(), settings.stop);
     for (const Fabric &fabric : scene.fabrics)
         for (Problem &warning : fabric_warnings(fabric, "fabrics." + fabric.name))
             result.warnings.push_back(std::move(warning));
+    if (!interrupted && result.stats.error_reached_share < 1) {
+        std::ostringstream what;
+        what << std::setprecision(2) << 100 * (1 - result.stats.error_reached_share)
+             << " % of the picture did not reach the error of " << *settings.stop.relative_error;
+        result.warnings.push_back(
+            {what.str(), "", "expected more samples or time, or a larger error"});
+    }
     if (keeper.problem())
         result.warnings.push_back(*keeper.problem());
     return result;

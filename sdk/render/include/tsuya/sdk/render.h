@@ -24,7 +24,8 @@ namespace tsuya {
 struct StopRule {
     int samples_per_pixel = 64; ///< 1 to 65536; at most, where an error is given
     /// Each part of the picture is done when the mean absolute error of its pixels is below this
-    /// share of their mean value (or of a twentieth of a white diffuser's, where they are darker):
+    /// share of their mean value (or of a twentieth of what a tenth of
+    /// the parts exceed, where they are darker):
     /// smooth parts are done first. Above 0, finite.
     std::optional<double> relative_error{};
     /// Of tracing, over all runs that a checkpoint joins; not reproducible. Above 0, finite.
@@ -103,7 +104,8 @@ struct RenderResult {
 };
 
 /// A key of all that decides a picture: hashes of scene, settings and stop rule, 48 hexadecimal
-/// digits. A render that is complete has it in its image's metadata as "render_key".
+/// digits. A render with a checkpoint that is complete has it in its image's metadata as
+/// "render_key".
 std::string render_key(const Scene &scene, const RenderSettings &settings);
 
 /// Renders. On one build the picture is bit-identical for any number of threads, and after stop and
