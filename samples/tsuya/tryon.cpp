@@ -143,7 +143,7 @@ struct TryOn final : Command {
         job.render.stop.relative_error = error;
         if (samples)
             job.render.stop = {.samples_per_pixel = *samples};
-        job.render.denoise = !keeps_noise && samples != 1; // one sample does not tell its noise
+        job.render.denoise = !keeps_noise;
         scene::TryOnResult result;
         detail::run_with_threads(job.render.threads,
                                  [&] { result = scene::run(job, console.progress()); });

@@ -335,6 +335,8 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
 RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Progress &progress,
                            KeptMaterials *kept) {
     settings.aovs = {"object"};
+    // One sample does not tell its noise
+    settings.denoise = settings.denoise && settings.stop.samples_per_pixel > 1;
     RenderResult rendered = render(scene, settings, progress, kept);
     keep_coverage(rendered.image);
     return rendered;

@@ -69,6 +69,7 @@ struct TryOn {
     double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
     int width = 800;
     int height = 1000;
+    /// Pictures of one sample per pixel are never denoised.
     RenderSettings render{.stop = kTryOnQuality, .denoise = true};
     DisplayOptions look = default_look();
     std::filesystem::path output{}; ///< a folder; made where it is missing
