@@ -84,7 +84,7 @@ template <int K> class Passes {
             }
             if (from == 0)
                 check_finite();
-            if (film_.dark == 0)
+            if (stop.relative_error && film_.dark == 0)
                 film_.dark = kDark * film_.bright_value();
             if (stop.seconds && film_.seconds >= *stop.seconds)
                 break;

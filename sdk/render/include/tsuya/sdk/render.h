@@ -24,9 +24,8 @@ namespace tsuya {
 struct StopRule {
     int samples_per_pixel = 64; ///< 1 to 65536; at most, where an error is given
     /// Each part of the picture is done when the mean absolute error of its pixels is below this
-    /// share of their mean value (or of a twentieth of what a tenth of
-    /// the parts exceed, where they are darker):
-    /// smooth parts are done first. Above 0, finite.
+    /// share of their mean value, or of a twentieth of what a tenth of the parts exceed, where they
+    /// are darker: smooth parts are done first. Above 0, finite.
     std::optional<double> relative_error{};
     /// Of tracing, over all runs that a checkpoint joins; not reproducible. Above 0, finite.
     std::optional<double> seconds{};
