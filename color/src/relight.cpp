@@ -36,8 +36,10 @@ std::vector<std::vector<Weights>> group_weights(const SpectralImage &transport,
     for (std::size_t g = 0; g < transport.groups.size(); ++g) {
         const double scale = options.group_scale.empty() ? 1.0 : options.group_scale[g];
         std::vector<Weights> weights;
-        for (const glm::dvec3 &xyz :
-             lamp_matrix(lamps[lamps.size() == 1 ? 0 : g], transport.basis, options.observer))
+        const Spectrum &lamp = lamps[lamps.size() == 1 ? 0 : g];
+        for (const glm::dvec3 &xyz : transport.depths
+                                         ? lamp_matrix(lamp, *transport.depths, options.observer)
+                                         : lamp_matrix(lamp, transport.basis, options.observer))
             weights.push_back({static_cast<float>(scale * xyz.x), static_cast<float>(scale * xyz.y),
                                static_cast<float>(scale * xyz.z), 0.0f});
         all.push_back(std::move(weights));
@@ -63,15 +65,18 @@ void check(const SpectralImage &transport, std::span<const Spectrum> lamps,
 
 } // namespace
 
-std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
-                                    Observer observer) {
-    std::vector<glm::dvec3> matrix(static_cast<std::size_t>(basis.count), glm::dvec3(0.0));
+namespace {
+
+// \param add adds to a matrix what a wavelength brings to each channel
+template <class Add>
+std::vector<glm::dvec3> integrated(const Spectrum &lamp, std::size_t channels, Observer observer,
+                                   const Add &add) {
+    std::vector<glm::dvec3> matrix(channels, glm::dvec3(0.0));
     double white_y = 0;
     for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
         const glm::dvec3 weight = lamp.at(nm) * color_matching(observer, nm);
         white_y += weight.y;
-        for (int k = 0; k < basis.count; ++k)
-            matrix[static_cast<std::size_t>(k)] += basis.weight(k, nm) * weight;
+        add(nm, weight, matrix);
     }
     if (!(white_y > 0))
         throw Error({"the lamp has no visible power", "lamp",
@@ -79,6 +84,28 @@ std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &b
     for (glm::dvec3 &xyz : matrix)
         xyz /= white_y;
     return matrix;
+}
+
+} // namespace
+
+std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
+                                    Observer observer) {
+    return integrated(lamp, static_cast<std::size_t>(basis.count), observer,
+                      [&](int nm, const glm::dvec3 &weight, std::vector<glm::dvec3> &matrix) {
+                          for (int k = 0; k < basis.count; ++k)
+                              matrix[static_cast<std::size_t>(k)] += basis.weight(k, nm) * weight;
+                      });
+}
+
+std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const DyeDepths &depths,
+                                    Observer observer) {
+    const DepthWeights weights(depths);
+    return integrated(lamp, depths.node.size(), observer,
+                      [&](int nm, const glm::dvec3 &weight, std::vector<glm::dvec3> &matrix) {
+                          const std::vector<double> of_channels = weights.at_nm(nm);
+                          for (std::size_t k = 0; k < matrix.size(); ++k)
+                              matrix[k] += of_channels[k] * weight;
+                      });
 }
 
 Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "channels.h"
+#include "depth_attributes.h"
 #include "pictures.h"
 #include "rows.h"
 #include "tsuya/color/image_file.h"
@@ -36,10 +37,11 @@ std::string basis_text(const SpectralBasis &basis) {
     return text.str();
 }
 
-std::vector<std::string> group_channels(const std::string &group, const SpectralBasis &basis) {
+std::vector<std::string> group_channels(const std::string &group, const SpectralImage &image) {
     std::vector<std::string> names;
-    for (int k = 0; k < basis.count; ++k)
-        names.push_back(spectral_channel_name(group, basis.centre_nm(k)));
+    for (int k = 0; k < image.basis.count; ++k)
+        names.push_back(image.depths ? group + ".depth." + (k < 10 ? "0" : "") + std::to_string(k)
+                                     : spectral_channel_name(group, image.basis.centre_nm(k)));
     return names;
 }
 
@@ -55,6 +57,13 @@ void check(const SpectralImage &image, const std::string &where) {
         throw Error({"the transport holds " + std::to_string(image.transport.size()) +
                          " values where its size, groups and basis say " + std::to_string(values),
                      where, "expected width x height x channels x groups values, at least one"});
+    if (image.depths) {
+        check_dye_depths(*image.depths, where);
+        if (image.depths->node.size() != static_cast<std::size_t>(basis.count))
+            throw Error({detail::counted(image.depths->node.size(), "depth") + " of dye for " +
+                             detail::counted(static_cast<std::size_t>(basis.count), "channel"),
+                         where, "expected one for each"});
+    }
     if (image.aovs.size() != image.aov_names.size())
         throw Error({detail::counted(image.aovs.size(), "AOV") + " given with " +
                          detail::counted(image.aov_names.size(), "name"),
@@ -73,14 +82,18 @@ void check(const SpectralImage &image, const std::string &where) {
 
 void describe(const SpectralImage &image, OutputPicture &picture) {
     picture.attributes["tsuya:schema"] = kSchema;
-    picture.attributes["tsuya:basis"] = basis_text(image.basis);
-    // [Fichet] section 3: the version of the layout, and the unit of the S0 channels. Transport is
-    // relative to the lamp, so it has none.
-    picture.attributes["spectralLayoutVersion"] = "1.0";
-    picture.attributes["emissiveUnits"] = "relative to the lamp";
+    if (image.depths) {
+        write_depths(*image.depths, picture.attributes);
+    } else {
+        picture.attributes["tsuya:basis"] = basis_text(image.basis);
+        // [Fichet] section 3: the version of the layout, and the unit of the S0 channels. Transport
+        // is relative to the lamp, so it has none.
+        picture.attributes["spectralLayoutVersion"] = "1.0";
+        picture.attributes["emissiveUnits"] = "relative to the lamp";
+    }
     for (std::size_t g = 0; g < image.groups.size(); ++g) {
         picture.attributes[group_key(g)] = image.groups[g];
-        for (std::string &name : group_channels(image.groups[g], image.basis))
+        for (std::string &name : group_channels(image.groups[g], image))
             picture.channels.push_back(std::move(name));
     }
     for (std::size_t i = 0; i < image.aovs.size(); ++i) {
@@ -95,6 +108,17 @@ void describe(const SpectralImage &image, OutputPicture &picture) {
         picture.attributes[kMetaPrefix + key] = value;
 }
 
+SpectralBasis parse_basis(const std::string &attribute, const std::string &where) {
+    SpectralBasis basis;
+    std::string kind;
+    std::istringstream text(attribute);
+    if (!(text >> kind >> basis.count >> basis.first_nm >> basis.last_nm) || kind != "hat" ||
+        basis.count < 1 || !(basis.first_nm < basis.last_nm))
+        throw Error({"the attribute tsuya:basis is missing or wrong", where,
+                     "expected hat COUNT FIRST_NM LAST_NM, or depths COUNT"});
+    return basis;
+}
+
 /// What the attributes of a file say, with the pictures still empty.
 SpectralImage parse_header(const InputPicture &picture, const std::string &where) {
     const auto find = [&](const std::string &key) {
@@ -107,14 +131,11 @@ SpectralImage parse_header(const InputPicture &picture, const std::string &where
     if (*schema != kSchema)
         throw Error({"the file has the schema '" + *schema + "'", where,
                      std::string("expected ") + kSchema});
-    SpectralBasis basis;
-    std::string kind;
+    std::optional<DyeDepths> depths = read_depths(picture.attributes, where);
     const std::string *basis_value = find("tsuya:basis");
-    std::istringstream text(basis_value ? *basis_value : "");
-    if (!(text >> kind >> basis.count >> basis.first_nm >> basis.last_nm) || kind != "hat" ||
-        basis.count < 1 || !(basis.first_nm < basis.last_nm))
-        throw Error({"the attribute tsuya:basis is missing or wrong", where,
-                     "expected hat COUNT FIRST_NM LAST_NM"});
+    const SpectralBasis basis = depths
+                                    ? SpectralBasis{.count = static_cast<int>(depths->node.size())}
+                                    : parse_basis(basis_value ? *basis_value : "", where);
     std::vector<std::string> groups;
     while (const std::string *group = find(group_key(groups.size())))
         groups.push_back(*group);
@@ -122,6 +143,7 @@ SpectralImage parse_header(const InputPicture &picture, const std::string &where
         throw Error({"the attribute tsuya:group.0 is missing", where, kOurs});
     SpectralImage image =
         SpectralImage::make(picture.image.width, picture.image.height, basis, std::move(groups));
+    image.depths = std::move(depths);
     while (const std::string *aov = find(aov_key(image.aovs.size()))) {
         std::vector<std::string> channels;
         while (const auto *channel = find(aov_channel_key(image.aovs.size(), channels.size())))
@@ -199,7 +221,7 @@ SpectralImage read_spectral_exr(const std::filesystem::path &path) {
     const ChannelFinder finder(picture.image, path.string());
     std::vector<std::vector<std::size_t>> from_group, from_aov;
     for (const std::string &group : image.groups)
-        from_group.push_back(finder.find(group_channels(group, image.basis)));
+        from_group.push_back(finder.find(group_channels(group, image)));
     for (std::size_t i = 0; i < image.aovs.size(); ++i) {
         std::vector<std::string> names;
         for (const std::string &channel : image.aovs[i].channels)

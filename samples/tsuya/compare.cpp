@@ -11,19 +11,26 @@
 #include "tsuya/color/sheet.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/picture.h"
+#include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/detail/threads.h"
 
 namespace tsuya::program {
 namespace {
 
-void print(const std::vector<LampDifference> &differences) {
-    std::cout << "CIEDE2000 after adaptation\n"
+/// The differences of a picture in one dye.
+struct DyedDifferences {
+    std::string dye{}; ///< empty: that of the file
+    std::vector<LampDifference> lamps{};
+};
+
+void print(const DyedDifferences &dyed) {
+    std::cout << "CIEDE2000 after adaptation" << (dyed.dye.empty() ? "" : ", ") << dyed.dye << "\n"
               << std::left << std::setw(12) << "first" << std::setw(12) << "second" << std::right
               << std::setw(8) << "mean" << std::setw(8) << "p95" << std::setw(8) << "max"
               << std::setw(10) << "pixels"
               << "\n"
               << std::fixed << std::setprecision(2);
-    for (const LampDifference &d : differences)
+    for (const LampDifference &d : dyed.lamps)
         std::cout << std::left << std::setw(12) << d.first << std::setw(12) << d.second
                   << std::right << std::setw(8) << d.mean << std::setw(8) << d.p95 << std::setw(8)
                   << d.max << std::setw(10) << d.pixels << "\n";
@@ -31,7 +38,7 @@ void print(const std::vector<LampDifference> &differences) {
 
 struct Compare final : Command {
     std::filesystem::path transport{}, output{}, report{};
-    std::vector<std::string> lamps{};
+    std::vector<std::string> lamps{}, dyes{};
     bool json = false;
     int threads = 0;
     LookOptions look{};
@@ -43,6 +50,12 @@ struct Compare final : Command {
             .at_least(2)
             .check([this] { scene::check_lamps(lamps); })
             .required();
+        o.option(
+             "--dyes", &dyes, "A,B,...",
+             "dyes in place of one that was left open, a row of the sheet each: names of `tsuya "
+             "list dyes`, #rrggbb, F.csv")
+            .with_commas()
+            .check([this] { scene::check_dyes(dyes); });
         o.option("-o,--output", &output, "SHEET.png", "the pictures side by side")
             .required()
             .result({".png"});
@@ -59,7 +72,7 @@ struct Compare final : Command {
         scene::check_output_file(output);
         if (!report.empty())
             scene::check_output_file(report);
-        std::vector<LampDifference> differences;
+        std::vector<DyedDifferences> differences;
         detail::run_with_threads(threads, [&] { differences = compare(); });
         const Json numbers = json_of_differences(differences);
         if (!report.empty())
@@ -67,21 +80,30 @@ struct Compare final : Command {
         if (json)
             std::cout << numbers.text() << "\n";
         else
-            print(differences);
+            for (const DyedDifferences &dyed : differences)
+                print(dyed);
         return kDone;
     }
 
     /// Draws the sheet.
-    std::vector<LampDifference> compare() const {
+    std::vector<DyedDifferences> compare() const {
         const DisplayOptions display = look.look();
         const std::vector<NamedLamp> named = scene::parse_lamps(lamps);
-        const SpectralImage image = read_spectral_exr(transport);
-        const std::vector<LampDifference> differences =
-            compare_lamps(image, named, {.exposure_stops = display.exposure_stops});
-        Sheet sheet;
-        for (const NamedLamp &lamp : named)
-            sheet.pictures.push_back(
-                {scene::picture_under(image, {&lamp, 1}, display), scene::caption_of(lamp)});
+        SpectralImage image = read_spectral_exr(transport);
+        std::vector<DyedDifferences> differences;
+        Sheet sheet{.columns = static_cast<int>(named.size())};
+        const std::vector<std::string> rows = dyes.empty() ? std::vector<std::string>{""} : dyes;
+        for (const std::string &dye : rows) {
+            if (!dye.empty()) {
+                scene::show_dyes(image, {&dye, 1});
+                sheet.row_labels.push_back(scene::file_stem_of(dye));
+            }
+            differences.push_back(
+                {dye, compare_lamps(image, named, {.exposure_stops = display.exposure_stops})});
+            for (const NamedLamp &lamp : named)
+                sheet.pictures.push_back(
+                    {scene::picture_under(image, {&lamp, 1}, display), scene::caption_of(lamp)});
+        }
         const Image drawn = draw_sheet(sheet);
         scene::prepare_output_file(output);
         if (!report.empty())
@@ -90,19 +112,20 @@ struct Compare final : Command {
         return differences;
     }
 
-    Json json_of_differences(const std::vector<LampDifference> &differences) const {
+    Json json_of_differences(const std::vector<DyedDifferences> &differences) const {
         Json numbers{{"schema", "tsuya-compare 1"},
                      {"transport", transport.string()},
                      {"measure", "CIEDE2000"},
                      {"adaptation", to_string(CompareOptions{}.adapt)},
                      {"differences", Json::array()}};
-        for (const LampDifference &d : differences)
-            numbers["differences"].push_back({{"first", d.first},
-                                              {"second", d.second},
-                                              {"mean", d.mean},
-                                              {"p95", d.p95},
-                                              {"max", d.max},
-                                              {"pixels", d.pixels}});
+        for (const DyedDifferences &dyed : differences)
+            for (const LampDifference &d : dyed.lamps) {
+                Json one{{"first", d.first}, {"second", d.second}, {"mean", d.mean},
+                         {"p95", d.p95},     {"max", d.max},       {"pixels", d.pixels}};
+                if (!dyed.dye.empty())
+                    one["dye"] = dyed.dye;
+                numbers["differences"].push_back(std::move(one));
+            }
         return numbers;
     }
 };

@@ -15,7 +15,7 @@ namespace {
 
 struct Relight final : Command {
     std::filesystem::path transport{}, output{};
-    std::vector<std::string> lamps{};
+    std::vector<std::string> lamps{}, dyes{};
     int bits = 8, threads = 0;
     LookOptions look{};
 
@@ -26,6 +26,10 @@ struct Relight final : Command {
                  "of them; may be repeated")
             .check([this] { scene::check_group_lamps(lamps); })
             .required();
+        o.option(
+            "--dye", &dyes, "DYE",
+            "another dye where it was left open: a name of `tsuya list dyes`, #rrggbb or F.csv; "
+            "FABRIC=DYE where several are open; may be repeated");
         o.option("-o,--output", &output, "OUT.png", "the picture").required().result({".png"});
         o.option("--bits", &bits, "N", "bits of a sample of the PNG").one_of({"8", "16"});
         look.add_to(o);
@@ -37,7 +41,8 @@ struct Relight final : Command {
         scene::check_output_file(output);
         const DisplayOptions display = look.look();
         detail::run_with_threads(threads, [&] {
-            const SpectralImage image = read_spectral_exr(transport);
+            SpectralImage image = read_spectral_exr(transport);
+            scene::show_dyes(image, dyes);
             const Image picture =
                 scene::picture_under(image, scene::parse_group_lamps(lamps, image.groups), display);
             scene::prepare_output_file(output);

@@ -24,7 +24,7 @@ struct TryOn final : Command {
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
     bool keeps_noise = false;
-    const Option *dye = nullptr;
+    const Option *dye = nullptr, *channels = nullptr;
 
     void options(Options &o) override {
         add_garment(o);
@@ -85,7 +85,8 @@ struct TryOn final : Command {
             .positive()
             .needs(pattern);
         dye = &o.option("--dye", &job.dyes, "A,B,...",
-                        "dyes, one render each: names of `tsuya list dyes`, #rrggbb, F.csv; where "
+                        "dyes, which share one render where no print or third colour stands beside "
+                        "them: names of `tsuya list dyes`, #rrggbb, F.csv; where "
                         "none is given, a dyed fabric has its own")
                    .with_commas()
                    .check([this] { scene::check_dyes(job.dyes); });
@@ -109,8 +110,11 @@ struct TryOn final : Command {
         o.option("--spp,--samples", &samples, "N", "samples per pixel, the same everywhere")
             .range(1, 65536)
             .excludes(relative);
-        o.option("--channels", &job.render.channels, "K", "number of spectral channels")
-            .one_of({"8", "16", "32"});
+        channels =
+            &o.option("--channels", &job.render.channels, "K",
+                      "number of channels over wavelengths, and one render a dye; by default "
+                      "channels are depths of the dye where they can be")
+                 .one_of({"8", "16", "32"});
         o.flag("--no-denoise", &keeps_noise,
                "leave the noise in the pictures, as for measurements; pictures of one sample per "
                "pixel are never denoised");
@@ -144,6 +148,7 @@ struct TryOn final : Command {
         if (samples)
             job.render.stop = {.samples_per_pixel = *samples};
         job.render.denoise = !keeps_noise;
+        job.wavelengths = channels->given;
         scene::TryOnResult result;
         detail::run_with_threads(job.render.threads,
                                  [&] { result = scene::run(job, console.progress()); });

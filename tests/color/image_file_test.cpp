@@ -1,5 +1,6 @@
 #include "tsuya/color/image_file.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -38,8 +39,47 @@ SpectralImage some_transport() {
     return image;
 }
 
+SpectralImage transport_of_dyes() {
+    SpectralImage image = SpectralImage::make(5, 4, {.count = 16}, {"key"});
+    for (std::size_t i = 0; i < image.transport.size(); ++i)
+        image.transport[i] = static_cast<float>(i) / 7;
+    image.depths = make_dye_depths(
+        {{.name = "silk",
+          .dye = {{400, 550.25, 700}, {0.1, 1.0 / 3, 0.9}},
+          .open = true,
+          .highest = 0.953},
+         {.name = "linen.weft", .dye = Spectrum::constant(0.4), .lowest = 0.3, .highest = 0.5}},
+        16);
+    return image;
+}
+
 bool same_bits(const std::vector<float> &a, const std::vector<float> &b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+TEST(ImageFile, DepthsOfDyeAreKeptToTheLastBit) {
+    const test::Folder folder;
+    const SpectralImage image = transport_of_dyes();
+    write_spectral_exr(folder / "d.exr", image);
+    const SpectralImage back = read_spectral_exr(folder / "d.exr");
+    EXPECT_EQ(back.depths, image.depths);
+    EXPECT_EQ(back.basis.count, 16);
+    EXPECT_TRUE(same_bits(back.transport, image.transport));
+    const Image layers = read_image(folder / "d.exr");
+    EXPECT_NE(std::find(layers.channels.begin(), layers.channels.end(), "key.depth.07"),
+              layers.channels.end());
+}
+
+TEST(ImageFile, DepthsOfDyeThatDoNotFitAreRefused) {
+    const test::Folder folder;
+    SpectralImage image = transport_of_dyes();
+    image.depths->node.pop_back();
+    image.depths->degree.pop_back();
+    EXPECT_THROW(write_spectral_exr(folder / "d.exr", image), Error);
+    image.depths->degree.push_back({0, 0}); // of which there is one already
+    image.depths->node.push_back({0.1, 0.3});
+    EXPECT_THROW(write_spectral_exr(folder / "d.exr", image), Error);
+    EXPECT_EQ(folder.size(), 0);
 }
 
 TEST(ImageFile, PngKeepsCodeValues) {

@@ -43,6 +43,28 @@ glm::dvec3 integrate(const float *t, const SpectralBasis &basis, const Spectrum 
     return sum / white;
 }
 
+// Every depth of the dye as light that dyed cloth reflects once or twice, under a lamp of lines.
+TEST(Relight, DepthsOfDyeAreExactAtEveryWavelength) {
+    const Spectrum steep{{420, 421, 588, 589, 590, 650}, {0.9, 0.02, 0.05, 0.97, 0.3, 0.6}};
+    SpectralImage image = SpectralImage::make(1, 1, {.count = 8}, {"key"});
+    image.depths = make_dye_depths({{.name = "silk", .dye = steep, .open = true}}, 8);
+    const auto transport = [](double r) { return 0.1 + 0.7 * r + 0.2 * r * r; };
+    for (std::size_t k = 0; k < 8; ++k)
+        image.transport[k] = static_cast<float>(transport(image.depths->node[k][0]));
+    for (const char *name : {"A", "FL11", "HP4"}) {
+        const Spectrum lit = lamp(name);
+        const Image xyz = relight(image, lit);
+        glm::dvec3 sum(0.0);
+        double white = 0;
+        for (int nm = 360; nm <= 830; ++nm) {
+            sum += lit.at(nm) * transport(steep.at(nm)) * color_matching(Observer::cie1931, nm);
+            white += lit.at(nm) * color_matching(Observer::cie1931, nm).y;
+        }
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(xyz.data[static_cast<std::size_t>(c)], (sum / white)[c], 1e-6) << name;
+    }
+}
+
 /// The threads that take rows when so many are asked for.
 std::size_t threads_of_rows(int threads) {
     std::mutex mutex;

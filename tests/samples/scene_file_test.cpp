@@ -57,6 +57,22 @@ TEST(SceneFile, HasDefaults) {
     EXPECT_EQ(file.output.look.view, "Soft");
 }
 
+TEST(SceneFile, ADyeMayStayOpen) {
+    const Scratch scratch;
+    const std::string rest = "[garments.cloth]\nmesh = \"cloth.obj\"\nfabric = \"silk\"\n"
+                             "[environment]\n";
+    const SceneFile file =
+        read(scratch, "[fabrics.lining]\n[fabrics.silk]\ndye = \"any\"\n" + rest);
+    const Scene scene = build_scene(file).scene;
+    ASSERT_EQ(scene.open_dyes.size(), 1u);
+    EXPECT_EQ(scene.fabrics[scene.open_dyes[0].value].name, "silk");
+    EXPECT_TRUE(scene.fabrics[scene.open_dyes[0].value].colours.any_dye());
+    EXPECT_EQ(plan(scene, file.render).dyes.size(), 1u);
+    EXPECT_EQ(
+        problems_of(scratch, "[fabrics.silk]\ndye = \"any\"\nreflectance = 0.5\n" + rest)[0].what,
+        "dye and reflectance are both given");
+}
+
 TEST(SceneFile, ALightAtItsTargetIsOneProblem) {
     const Scratch scratch;
     const std::vector<Problem> problems = problems_of(

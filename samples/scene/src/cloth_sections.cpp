@@ -7,6 +7,12 @@
 #include "tsuya/sdk/angle.h"
 
 namespace tsuya::scene {
+namespace {
+
+// In the place of a dye: it is chosen in the finished picture.
+constexpr const char *kAnyDye = "any";
+
+} // namespace
 
 std::optional<Spectrum> SceneReader::reflectance(const Section &section) {
     const auto constant = section.number("reflectance", 0, 1);
@@ -95,7 +101,11 @@ void SceneReader::read_fabrics() {
         return;
     for (const auto &[name, section] : fabrics->sections()) {
         FabricEntry entry{.name = name, .file = existing_file(section, "file", false)};
-        entry.dye = reflectance(section);
+        entry.open_dye = section.is_text("dye") && section.text("dye") == kAnyDye;
+        if (entry.open_dye && section.has("reflectance"))
+            section.problem("dye", "dye and reflectance are both given", "expected one of them");
+        if (!entry.open_dye)
+            entry.dye = reflectance(section);
         entry.f0 = section.number("f0", kSmallest, 1);
         entry.transmittance = colour(section, "transmittance");
         entry.specular_tint = colour(section, "specular_tint");

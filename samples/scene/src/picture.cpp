@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/relight.h"
 #include "tsuya/sdk/error.h"
@@ -10,16 +11,16 @@
 namespace tsuya::scene {
 namespace {
 
-/// `LAMP`, for all groups, or `GROUP=LAMP`.
-struct GroupLamp {
-    std::string group{}; ///< empty: all
-    std::string lamp{};
+/// `SPEC`, for all, or `NAME=SPEC`.
+struct NamedSpec {
+    std::string name{}; ///< empty: all
+    std::string spec{};
 };
 
-GroupLamp split_spec(const std::string &spec) {
+NamedSpec split_spec(const std::string &spec) {
     const std::size_t equals = spec.find('=');
     if (equals == std::string::npos)
-        return {.lamp = spec};
+        return {.spec = spec};
     return {spec.substr(0, equals), spec.substr(equals + 1)};
 }
 
@@ -66,14 +67,14 @@ std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
 void check_group_lamps(std::span<const std::string> specs) {
     std::set<std::string> groups;
     for (const std::string &spec : specs) {
-        const GroupLamp one = split_spec(spec);
+        const NamedSpec one = split_spec(spec);
         if (spec.starts_with('='))
             throw Error(
                 {"'" + spec + "' names no light group", "lamp", "expected LAMP or GROUP=LAMP"});
-        check_lamp_spec(one.lamp);
-        if (!groups.insert(one.group).second)
-            throw Error({"two lamps for " + (one.group.empty() ? std::string("all light groups")
-                                                               : "group '" + one.group + "'"),
+        check_lamp_spec(one.spec);
+        if (!groups.insert(one.name).second)
+            throw Error({"two lamps for " + (one.name.empty() ? std::string("all light groups")
+                                                              : "group '" + one.name + "'"),
                          "lamp", "expected one; GROUP=LAMP names a group"});
     }
 }
@@ -85,15 +86,15 @@ std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
     std::vector<std::string> chosen(groups.size());
     std::string rest;
     for (const std::string &spec : specs) {
-        const GroupLamp one = split_spec(spec);
-        const auto group = std::find(groups.begin(), groups.end(), one.group);
-        if (one.group.empty())
-            rest = one.lamp;
+        const NamedSpec one = split_spec(spec);
+        const auto group = std::find(groups.begin(), groups.end(), one.name);
+        if (one.name.empty())
+            rest = one.spec;
         else if (group == groups.end())
             throw Error(
-                {"no light group '" + one.group + "'", "lamp", accepted_names(one.group, groups)});
+                {"no light group '" + one.name + "'", "lamp", accepted_names(one.name, groups)});
         else
-            chosen[static_cast<std::size_t>(group - groups.begin())] = one.lamp;
+            chosen[static_cast<std::size_t>(group - groups.begin())] = one.spec;
     }
     std::vector<NamedLamp> lamps;
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -104,6 +105,16 @@ std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
         lamps.push_back({file_stem_of(spec), parse_lamp(spec, folder)});
     }
     return lamps;
+}
+
+void show_dyes(SpectralImage &image, std::span<const std::string> specs) {
+    if (!specs.empty() && !image.depths)
+        throw Error({"the dye of this picture is fixed", "dye",
+                     "expected a picture of tryon, or of a scene with dye = \"any\""});
+    for (const std::string &spec : specs) {
+        const NamedSpec one = split_spec(spec);
+        set_dye(*image.depths, one.name, parse_dye(one.spec));
+    }
 }
 
 std::string caption_of(const NamedLamp &lamp) {

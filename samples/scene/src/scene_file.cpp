@@ -79,6 +79,8 @@ Fabric load_fabric(const FabricEntry &entry, const std::string &scene_file) {
     fabric.name = entry.name;
     if (entry.dye)
         fabric.colours.dye_all(*entry.dye);
+    else if (entry.open_dye && !fabric.colours.any_dye())
+        fabric.colours.dye_all(Spectrum::constant(kPlainReflectance));
     if (entry.weft_dye)
         fabric.colours.weft_dye = entry.weft_dye;
     if (entry.warp_dye)
@@ -165,6 +167,9 @@ struct SceneBuilder {
         for (const FabricEntry &entry : file.fabrics)
             scene.fabrics.push_back(load_fabric(entry, file.path.string()));
         add_pictures(file.patterns, file.opacities, scene);
+        for (std::uint32_t i = 0; i < file.fabrics.size(); ++i)
+            if (file.fabrics[i].open_dye)
+                scene.open_dyes.push_back({i});
         for (std::size_t i = 0; i < file.fabrics.size(); ++i)
             fabrics.push_back({.needs_frames = needs_frames(scene.fabrics[i]),
                                .print = index_of<PrintTag>(file.fabrics[i].pattern),

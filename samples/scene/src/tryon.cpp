@@ -276,6 +276,21 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     return stage;
 }
 
+/// Leaves the garment's dye open, so that one render shows all dyes; false where other colours of
+/// the scene do not let it.
+bool leave_dye_open(const TryOn &job, Scene &scene) {
+    if (job.wavelengths)
+        return false;
+    scene.open_dyes = {FabricIndex{0}};
+    try {
+        dye_variables(scene);
+        return true;
+    } catch (const Error &) {
+        scene.open_dyes.clear();
+        return false;
+    }
+}
+
 // Those of the fabrics are the same in every render.
 void add_warnings(const RenderResult &rendered, TryOnResult &result) {
     for (const Problem &warning : rendered.warnings)
@@ -357,25 +372,31 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     TryOnResult result{.report = std::move(stage.shown.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
     KeptMaterials kept;
+    const bool open = dyes.front().spectrum && leave_dye_open(job, scene);
+    const std::size_t at_once = open ? dyes.size() : 1; // dyes of one render
     const std::size_t count = shapes * dyes.size();
-    for (std::size_t i = 0; i < count && !result.interrupted; ++i) {
-        const std::size_t frame = i / dyes.size();
-        const NamedDye &dye = dyes[i % dyes.size()];
+    for (std::size_t i = 0; i < count && !result.interrupted; i += at_once) {
+        const std::size_t frame = i / dyes.size(), first = i % dyes.size();
         Progress part{.stop = progress.stop};
         part.report = [&](std::string_view stage_name, double fraction) {
-            progress(std::string(stage_name) + " " + dye.name,
-                     (static_cast<double>(i) + fraction) / static_cast<double>(count));
+            progress(std::string(stage_name) + (at_once > 1 ? "" : " " + dyes[first].name),
+                     (static_cast<double>(i) + fraction * static_cast<double>(at_once)) /
+                         static_cast<double>(count));
         };
-        if (frame > 0 && i % dyes.size() == 0)
+        if (frame > 0 && first == 0)
             stage.meshes.show(0, frame, scene.surfaces[0]);
-        if (dye.spectrum)
-            scene.fabrics[0].colours.dye_all(*dye.spectrum);
-        const RenderResult rendered = render_try_on(scene, job.render, part, &kept);
+        if (dyes[first].spectrum)
+            scene.fabrics[0].colours.dye_all(*dyes[first].spectrum);
+        RenderResult rendered = render_try_on(scene, job.render, part, &kept);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;
         add_warnings(rendered, result);
-        write_pictures(rendered.image, dye.name, shapes > 1 ? frame_suffix(frame) : "", lamps, job,
-                       sheet, result);
+        for (std::size_t d = first; d < first + at_once; ++d) {
+            if (open)
+                set_dye(*rendered.image.depths, scene.fabrics[0].name, *dyes[d].spectrum);
+            write_pictures(rendered.image, dyes[d].name, shapes > 1 ? frame_suffix(frame) : "",
+                           lamps, job, sheet, result);
+        }
     }
     if (!result.interrupted && shapes == 1) {
         result.files.push_back(job.output / kSheet);

@@ -1,11 +1,13 @@
 #pragma once
 // The sums over samples that a picture is made of, tile by tile.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "tsuya/sdk/detail/checkpoint.h"
+#include "tsuya/sdk/dye_depths.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya {
@@ -44,6 +46,8 @@ struct Film {
     // kDark of bright_value after the first pass: what is rendered must not depend on how far
     // other tiles are. 0 before.
     double dark = 0;
+    // What the cloths can show of each dye of the plan at most; known when they are prepared.
+    std::array<double, kMostDyes> most_dye{1, 1};
     std::uint64_t not_finite = 0; // samples left out of the sums
     std::uint64_t rays = 0;
     double seconds = 0; // of tracing, over all runs

@@ -7,7 +7,7 @@
 namespace tsuya {
 namespace {
 
-constexpr const char *kKind = "render 5";
+constexpr const char *kKind = "render 6";
 
 // What is kept of a film, in order: for the writer (a constant film) and the reader.
 template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
@@ -16,6 +16,7 @@ template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
     file.value(film.seconds);
     file.value(film.all_split);
     file.value(film.dark);
+    file.value(film.most_dye);
     file.array(std::span(film.done));
     file.array(std::span(film.sum));
     file.array(std::span(film.difference));

@@ -2,6 +2,7 @@
 #include <cinttypes>
 #include <cstdio>
 
+#include "dye_channels.h"
 #include "film.h"
 #include "tsuya/sdk/detail/scene_fields.h"
 
@@ -28,7 +29,7 @@ std::string render_key(const detail::Fingerprint &fingerprint, const StopRule &s
 }
 
 std::string render_key(const Scene &scene, const RenderSettings &settings) {
-    return render_key(fingerprint(scene, settings), settings.stop);
+    return render_key(fingerprint(scene, as_planned(scene, settings)), settings.stop);
 }
 
 } // namespace tsuya

@@ -1,5 +1,8 @@
 #include "tsuya/sdk/plan.h"
 
+#include <algorithm>
+
+#include "dye_channels.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/render.h"
 
@@ -14,7 +17,12 @@ std::string name_of(const Scene &scene, std::size_t light) {
 } // namespace
 
 Plan plan(const Scene &scene, const RenderSettings &settings) {
-    Plan p;
+    Plan p{.channels = settings.channels};
+    if (!scene.open_dyes.empty()) {
+        p.dyes = dye_variables(scene);
+        if (!p.dyes.empty())
+            p.channels = depth_channels(p.dyes);
+    }
     const auto skip = [&](bool idle, std::string what, std::string saves) {
         if (idle && settings.skip)
             p.skips.push_back({std::move(what), std::move(saves)});
@@ -27,7 +35,9 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
             continue;
         const bool specular = has_specular(fabric);
         const bool transmits = fabric.colours.transmittance.any_above_zero();
-        const bool diffuse = fabric.colours.any_dye() || transmits;
+        const bool is_open = std::any_of(scene.open_dyes.begin(), scene.open_dyes.end(),
+                                         [&](FabricIndex open) { return open.value == i; });
+        const bool diffuse = fabric.colours.any_dye() || is_open || transmits;
         skip(!specular, "no specular part in fabric '" + fabric.name + "'",
              "its evaluation at every point");
         skip(!diffuse, "no dye in fabric '" + fabric.name + "'", "the diffuse part at every point");
@@ -60,8 +70,23 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
     return p;
 }
 
+namespace {
+
+std::string channels_text(const Plan &p) {
+    std::string text = "channels: " + std::to_string(p.channels);
+    if (p.dyes.empty())
+        return text + " over wavelengths\n";
+    text += " depths of";
+    for (std::size_t i = 0; i < p.dyes.size(); ++i)
+        text += std::string(i > 0 ? " and" : "") + (p.dyes[i].open ? " the open dye '" : " '") +
+                p.dyes[i].name + "'";
+    return text + ": every dye and lamp afterwards\n";
+}
+
+} // namespace
+
 std::string explain(const Plan &p) {
-    std::string text = "bounces: up to " + std::to_string(p.max_bounces) + "\n";
+    std::string text = channels_text(p) + "bounces: up to " + std::to_string(p.max_bounces) + "\n";
     text += "lights: " + detail::counted(p.lights.size(), "rectangle") +
             (p.environment ? ", environment" : "") + "\n";
     text += std::string("parts:") + (p.any_diffuse ? " diffuse" : "") +

@@ -41,10 +41,21 @@ ChannelValues values_of(const Spectrum &spectrum, const SpectralBasis &basis) {
     return values;
 }
 
-Colours colours_of(const Material &material, const SpectralBasis &basis) {
-    Colours c{values_of(material.dye, basis),       values_of(material.transmittance, basis),
-              values_of(material.weft_tint, basis), values_of(material.warp_tint, basis),
-              values_of(material.weft_body, basis), values_of(material.warp_body, basis)};
+// Of a fabric_at_depths.
+ChannelValues values_at_depths(const Spectrum &spectrum, int channels) {
+    ChannelValues values{};
+    for (int k = 0; k < channels; ++k)
+        values[static_cast<std::size_t>(k)] = static_cast<float>(spectrum.at(place_of(k)));
+    return values;
+}
+
+Colours colours_of(const Material &material, const SpectralBasis &basis, bool at_depths) {
+    const auto values = [&](const Spectrum &spectrum) {
+        return at_depths ? values_at_depths(spectrum, basis.count) : values_of(spectrum, basis);
+    };
+    Colours c{values(material.dye),       values(material.transmittance),
+              values(material.weft_tint), values(material.warp_tint),
+              values(material.weft_body), values(material.warp_body)};
     // Least squares may leave the range where a spectrum has a steep edge
     for (ChannelValues *const colour : {&c.dye, &c.weft, &c.warp})
         for (float &value : *colour)
@@ -144,22 +155,44 @@ void PreparedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &b
     const std::vector<bool> used = fabrics_in_use(scene);
     KeptMaterials own;
     KeptMaterials &materials = kept ? *kept : own;
+    std::vector<VaryingColours> varying;
+    if (!plan.dyes.empty()) {
+        varying = varying_colours(scene).fabrics;
+        find_most_dye(varying, materials, progress);
+    }
+    const std::optional<DyeDepths> depths = depths_of(plan.dyes, most_dye, basis.count);
     for (const Cloth &cloth : cloths_) {
         if (progress.stopped())
             throw Interrupted("stopped while the fabrics were prepared");
         const Fabric &fabric = scene.fabrics[cloth.fabric];
         const std::string where = "fabrics." + fabric.name;
-        const Material material = !used[cloth.fabric] && !keep_idle_parts ? Material{}
-                                  : cloth.print
-                                      ? materials.resolve(as_printed(cloth, basis), where, progress)
-                                      : materials.resolve(fabric, where, progress);
-        colours.push_back(colours_of(material, basis));
+        const Material material =
+            !used[cloth.fabric] && !keep_idle_parts ? Material{}
+            : cloth.print ? materials.resolve(as_printed(cloth, basis), where, progress)
+            : depths ? materials.resolve(fabric_at_depths(fabric, varying[cloth.fabric], *depths),
+                                         where, progress)
+                     : materials.resolve(fabric, where, progress);
+        colours.push_back(colours_of(material, basis, depths.has_value()));
         shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
         of_dye_.push_back(material.of_dye);
         weft_share_.push_back(static_cast<float>(material.weft_share));
     }
     for (std::size_t i = 0; i < cloths_.size(); ++i)
         colours.push_back(exchanged(colours[i]));
+}
+
+void PreparedScene::find_most_dye(const std::vector<VaryingColours> &varying,
+                                  KeptMaterials &materials, const Progress &progress) {
+    const std::optional<DyeDepths> whole = depths_of(plan.dyes, most_dye, plan.channels);
+    for (std::size_t i = 0; i < varying.size(); ++i)
+        for (const auto &dye : {varying[i].weft_dye, varying[i].warp_dye})
+            if (dye && plan.dyes[*dye].open) {
+                const Fabric &fabric = scene.fabrics[i];
+                const Material material =
+                    materials.resolve(fabric_at_depths(fabric, varying[i], *whole),
+                                      "fabrics." + fabric.name, progress);
+                most_dye[*dye] = std::min(most_dye[*dye], material.most_dye);
+            }
 }
 
 // With the mean of the print and of its own as its dye: so it has the parts that both need, samples

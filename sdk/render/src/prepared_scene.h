@@ -1,6 +1,7 @@
 #pragma once
 // A scene made ready for tracing: BVH, lights, materials, camera.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include "accelerator.h"
 #include "channels.h"
+#include "dye_channels.h"
 #include "lights.h"
 #include "prepared_print.h"
 #include "shading.h"
@@ -55,6 +57,8 @@ struct PreparedScene {
     std::vector<Shading> shading{};    // per cloth
     std::vector<Colours> colours{};    // per cloth, then of its own back
     glm::vec3 eye, forward, right, up; // camera, scaled to the image plane at distance 1
+    // What the cloths can show of each dye of the plan at most
+    std::array<double, kMostDyes> most_dye{1, 1};
 
     // The direction of the camera ray through a place of the picture, in pixels.
     glm::vec3 camera_direction(float x, float y) const;
@@ -100,6 +104,8 @@ struct PreparedScene {
     void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials *kept,
                          const Progress &progress);
     void prepare_prints(const SpectralBasis &basis);
+    void find_most_dye(const std::vector<VaryingColours> &varying, KeptMaterials &materials,
+                       const Progress &progress);
     std::uint32_t cloth_of(const Cloth &cloth);
     Fabric as_printed(const Cloth &cloth, const SpectralBasis &basis) const;
 

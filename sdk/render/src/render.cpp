@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "denoise.h"
+#include "dye_channels.h"
 #include "film.h"
 #include "film_keeper.h"
 #include "passes.h"
@@ -85,6 +86,7 @@ void check_memory(const Scene &scene, const RenderSettings &settings) {
 
 RenderResult result_of(const Film &film, const Scene &scene, const RenderSettings &settings) {
     RenderResult result{.image = film.develop(scene, settings)};
+    result.image.depths = depths_of(plan(scene, settings).dyes, film.most_dye, settings.channels);
     RenderStats &stats = result.stats;
     stats.samples_per_pixel = film.samples_per_pixel();
     stats.relative_error = film.relative_error();
@@ -123,6 +125,7 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
         const PreparedScene prepared(scene, plan(scene, settings), !settings.skip,
                                      {.count = settings.channels}, kept, progress);
         build_seconds = seconds_since(start);
+        film.most_dye = prepared.most_dye;
         trace_passes(prepared, settings, film, keeper, progress);
     } catch (const Interrupted &) {
         // Stopped while the scene was prepared: the film has what an earlier run left
@@ -162,10 +165,11 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
 
 std::vector<std::string> aov_names() { return {"coverage", "depth", "normal", "warp", "object"}; }
 
-RenderResult render(const Scene &scene, const RenderSettings &settings, const Progress &progress,
+RenderResult render(const Scene &scene, const RenderSettings &asked, const Progress &progress,
                     KeptMaterials *kept) {
     check_scene(scene);
-    check_settings(scene, settings);
+    check_settings(scene, asked);
+    const RenderSettings settings = as_planned(scene, asked);
     check_memory(scene, settings);
     RenderResult result;
     detail::run_with_threads(settings.threads,

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "tsuya/color/observer.h"
+#include "tsuya/sdk/dye_depths.h"
 #include "tsuya/sdk/image.h"
 #include "tsuya/sdk/spectral_image.h"
 #include "tsuya/sdk/spectrum.h"
@@ -18,6 +19,10 @@ namespace tsuya {
 /// divided so that T = 1 in all channels gives Y = 1. One entry a channel. Throws Error if the lamp
 /// has no visible power.
 std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
+                                    Observer observer = Observer::cie1931);
+
+/// The same for depths of dye: basis functions are the DepthWeights at the dyes' reflectances.
+std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const DyeDepths &depths,
                                     Observer observer = Observer::cie1931);
 
 /// The observer and the power of the groups.

@@ -92,6 +92,7 @@ void add_colours(const Fabric &fabric, Material &material, const Material *made,
     const Spectrum &weft = colours.dye_of_weft(), &warp = colours.dye_of_warp();
     const double share = yarns ? yarns->lobes().weft_share() : 0.5;
     material.weft_share = share;
+    material.most_dye = port.most();
     material.dye = combined(weft, warp, [&](double a, double b) {
         return share * port.even_albedo(a) + (1 - share) * port.even_albedo(b);
     });

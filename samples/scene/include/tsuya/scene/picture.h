@@ -42,6 +42,10 @@ std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
 /// lamp, two lamps for one group.
 void check_group_lamps(std::span<const std::string> specs);
 
+/// Shows other dyes in a picture whose dyes are open: each spec is `DYE`, for all of them, or
+/// `FABRIC=DYE`. Throws Error as parse_dye and set_dye.
+void show_dyes(SpectralImage &image, std::span<const std::string> specs);
+
 /// What to write under a picture: the lamp's name, and for a named lamp its correlated colour
 /// temperature in words.
 std::string caption_of(const NamedLamp &lamp);

@@ -30,6 +30,7 @@ struct FabricEntry {
     std::string name{};
     std::filesystem::path file{};  ///< empty: a plain diffuser
     std::optional<Spectrum> dye{}; ///< empty: the file's own, or 0.5 for a plain diffuser
+    bool open_dye = false;         ///< see Scene::open_dyes
     /// Empty: the file's own
     std::optional<double> f0{};
     std::optional<Spectrum> transmittance{}, specular_tint{}, weft_tint{}, warp_tint{};

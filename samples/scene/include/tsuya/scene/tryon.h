@@ -62,8 +62,10 @@ struct TryOn {
     std::string unit = "m";                 ///< of garment and body, see garment::metres_per
     std::optional<garment::UpAxis> up{};    ///< of garment and body, see garment::Options
     int level = 1;                          ///< of subdivision, 0 to 8
-    /// One render and one row of the sheet each, see parse_dye. Empty: the fabric's own dye.
+    /// One row of the sheet each, see parse_dye. Empty: the fabric's own dye. One render serves all
+    /// of them where its channels can be depths of dye, see dye_variables; else each has its own.
     std::vector<std::string> dyes{"white", "crimson"};
+    bool wavelengths = false;   ///< channels are wavelengths, one render a dye
     bool keeps_own_dye = false; ///< a dyed fabric has its own dye in place of `dyes`
     std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_lamps
     double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
@@ -107,11 +109,11 @@ struct TryOnResult {
     bool interrupted = false;
 };
 
-/// Renders once for each dye, and writes into the output folder `DYE.exr` (light transport, with
-/// the AOV `coverage` of the garment), `DYE-LAMP.png` for each lamp, and `sheet.png`. With
-/// frames, each dye and frame gives `DYE-0000.exr` and `DYE-LAMP-0000.png`, and no sheet. Where
-/// progress.stop becomes true, what is done is still written, without the sheet. Throws Error with
-/// nothing written for any wrong value of the job.
+/// Renders once for all dyes or for each, and writes into the output folder `DYE.exr` (light
+/// transport, with the AOV `coverage` of the garment), `DYE-LAMP.png` for each lamp, and
+/// `sheet.png`. With frames, each dye and frame gives `DYE-0000.exr` and `DYE-LAMP-0000.png`, and
+/// no sheet. Where progress.stop becomes true, what is done is still written, without the sheet.
+/// Throws Error with nothing written for any wrong value of the job.
 TryOnResult run(const TryOn &job, const Progress &progress = {});
 
 /// The files in the output folder that have the names of results, which `run` may replace. How many

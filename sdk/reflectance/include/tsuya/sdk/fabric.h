@@ -171,6 +171,7 @@ struct Material {
     /// by its reflectance from 0 to 1 in equal steps, for prints
     std::vector<glm::vec2> of_dye{};
     double weft_share = 0.5; ///< of the weft in what both systems show, see YarnLobes
+    double most_dye = 1;     ///< a dye of a greater reflectance looks the same; above 0
 
     bool has_diffuse() const;  ///< Lambertian: dye or transmittance
     bool has_specular() const; ///< with a colour

@@ -78,6 +78,9 @@ struct Environment {
 struct Scene {
     std::vector<Surface> surfaces{};
     std::vector<Fabric> fabrics{};
+    /// Fabrics whose dyes are chosen in the finished picture: its channels are depths of dye, see
+    /// dye_depths.h and plan. It shows the dyes of the fabrics until others are set.
+    std::vector<FabricIndex> open_dyes{};
     std::vector<Texture> textures{};
     std::vector<Print> prints{};
     std::vector<Opacity> opacities{};

@@ -4,9 +4,11 @@
 /// transport is linear and acts on each wavelength by itself, so lamps are applied afterwards).
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tsuya/sdk/dye_depths.h"
 #include "tsuya/sdk/image.h"
 #include "tsuya/sdk/spectrum.h"
 
@@ -19,6 +21,9 @@ struct SpectralImage {
     int width = 0;
     int height = 0;
     SpectralBasis basis{};
+    /// Where it is set, the channels are depths of dye and not the functions of `basis`, whose
+    /// count is theirs: sum_k T_k w_k(lambda), w the DepthWeights at the dyes' reflectances there.
+    std::optional<DyeDepths> depths{};
     std::vector<std::string> groups{}; ///< light group names
     std::vector<float> transport{};    ///< [group][y][x][k]
     std::vector<Image> aovs{};         ///< arbitrary output variables, see aov_names

@@ -122,10 +122,11 @@ template <class F, detail::MaybeConst<Camera> T> void each_field(F &&f, T &camer
 }
 
 template <class F, detail::MaybeConst<Scene> T> void each_field(F &&f, T &scene) {
-    auto &[surfaces, fabrics, textures, prints, opacities, objects, light_groups, rectangles,
-           environment, camera] = scene;
+    auto &[surfaces, fabrics, open_dyes, textures, prints, opacities, objects, light_groups,
+           rectangles, environment, camera] = scene;
     f(detail::Field{"surfaces"}, surfaces);
     f(detail::Field{"fabrics"}, fabrics);
+    f(detail::Field{"open_dyes"}, open_dyes);
     f(detail::Field{"textures"}, textures);
     f(detail::Field{"prints"}, prints);
     f(detail::Field{"opacities"}, opacities);
