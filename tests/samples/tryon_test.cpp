@@ -7,6 +7,8 @@
 
 #include "garment/expect_stops.h"
 #include "samples/scratch.h"
+#include "tsuya/color/dye.h"
+#include "tsuya/color/image_file.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/studio.h"
 #include "tsuya/sdk/error.h"
@@ -193,20 +195,48 @@ TEST(TryOn, KeepsTheFabricsOwnDye) {
 }
 
 TEST(TryOn, SavesWhatIsDoneWhereItIsStopped) {
+    for (const bool wavelengths : {false, true}) {
+        const Scratch scratch;
+        std::atomic<bool> stop{false};
+        Progress progress{.stop = &stop};
+        progress.report = [&](std::string_view stage, double) {
+            stop = stop || stage == (wavelengths ? "render white" : "render");
+        };
+        TryOn job = small_job(scratch.folder());
+        job.render.stop.samples_per_pixel = 64;
+        job.wavelengths = wavelengths;
+        const TryOnResult result = run(job, progress);
+        EXPECT_TRUE(result.interrupted);
+        ASSERT_EQ(result.files.size(), wavelengths ? 2u : 4u); // of the first dye, or of both
+        EXPECT_EQ(result.files[0].filename(), "white.exr");
+        EXPECT_TRUE(fs::exists(result.files[1]));
+        EXPECT_FALSE(fs::exists(scratch / "sheet.png"));
+    }
+}
+
+TEST(TryOn, OneRenderServesAllDyes) {
     const Scratch scratch;
-    std::atomic<bool> stop{false};
-    Progress progress{.stop = &stop};
-    progress.report = [&](std::string_view stage, double) {
-        stop = stop || stage == "render white";
-    };
     TryOn job = small_job(scratch.folder());
-    job.render.stop.samples_per_pixel = 64;
-    const TryOnResult result = run(job, progress);
-    EXPECT_TRUE(result.interrupted);
-    ASSERT_EQ(result.files.size(), 2u);
-    EXPECT_EQ(result.files[0].filename(), "white.exr");
-    EXPECT_TRUE(fs::exists(result.files[1]));
-    EXPECT_FALSE(fs::exists(scratch / "sheet.png"));
+    job.dyes = {"indigo", "white"};
+    EXPECT_EQ(run(job).stats.size(), 1u);
+    SpectralImage image = read_spectral_exr(scratch / "indigo.exr");
+    ASSERT_TRUE(image.depths);
+    ASSERT_EQ(image.depths->dyes.size(), 1u);
+    EXPECT_TRUE(image.depths->dyes[0].open);
+    EXPECT_EQ(image.depths->dyes[0].dye, dye("indigo"));
+    // Any other dye, too
+    const std::vector<std::string> white{"white"};
+    show_dyes(image, white);
+    EXPECT_EQ(image.depths, read_spectral_exr(scratch / "white.exr").depths);
+    const std::vector<std::string> unknown{"no dress=white"};
+    EXPECT_THROW(show_dyes(image, unknown), Error);
+    // A print has colours of its own
+    job.pattern = data_folder() / "prints" / "sakura.png";
+    job.garment = scratch.write("cloth.obj", cloth_obj());
+    job.body.clear();
+    EXPECT_EQ(run(job).stats.size(), 2u);
+    EXPECT_FALSE(read_spectral_exr(scratch / "white.exr").depths);
+    EXPECT_THROW(show_dyes(image = read_spectral_exr(scratch / "white.exr"), white), Error);
 }
 
 TEST(TryOn, RefusesADyeNamedTwice) {
