@@ -153,6 +153,40 @@ TEST(Tessellation, ACameraAsksForPixels) {
     EXPECT_EQ(subdivide(mesh, {.view = elsewhere}).triangle.size(), seen.triangles);
 }
 
+TEST(Tessellation, EachKindOfCameraAsksForItsPixels) {
+    const PolygonMesh mesh = folded_sheet();
+    Camera parallel{
+        .eye = {0.5, 0.25, 2}, .target = {0.5, 0.25, 0}, .height = 400, .orthographic_height = 1.2};
+    ViewTolerance view{.camera = parallel, .pixels = 0.25};
+    const TessellationError seen = measure_tessellation(mesh, {.view = view}, parallel);
+    EXPECT_LE(seen.pixels, 0.25);
+    EXPECT_GT(seen.pixels, 0.05);
+    // No coarser from afar, and not seen beside the picture
+    view.camera.eye.z = 50;
+    EXPECT_EQ(subdivide(mesh, {.view = view}).triangle.size(), seen.triangles);
+    const std::size_t control = 2 * mesh.face_count();
+    view.camera.shift = {0, 2};
+    EXPECT_EQ(subdivide(mesh, {.view = view}).triangle.size(), control);
+    // A light throws the shadow of what is not seen into the picture
+    view.lights = {{.centre = {0.5, -2, 3}}};
+    view.farthest = 60;
+    EXPECT_GT(subdivide(mesh, {.view = view}).triangle.size(), control);
+
+    // A camera that looks beside the sheet sees it by a shift
+    view = {.camera = {.eye = {0.5, 1.45, 2}, .target = {0.5, 1.45, 0}}, .pixels = 0.25};
+    EXPECT_EQ(subdivide(mesh, {.view = view}).triangle.size(), control);
+    view.camera.shift = {0, -1};
+    const TessellationError low = measure_tessellation(mesh, {.view = view}, view.camera);
+    EXPECT_LE(low.pixels, 0.25);
+    EXPECT_GT(low.triangles, control);
+
+    // The rim of a large aperture sees around the picture's edge
+    view.camera.shift = {0, 0};
+    view.camera.lens = Lens{.f_number = 0.05, .sensor_height = 0.2, .focus_distance = 6.0};
+    EXPECT_GT(aperture_radius(view.camera), 1);
+    EXPECT_GT(subdivide(mesh, {.view = view}).triangle.size(), control);
+}
+
 TEST(Tessellation, BadTolerancesAreErrors) {
     for (const double tolerance : {0.0, -1.0, std::nan("")})
         try {

@@ -160,6 +160,8 @@ TEST(SceneFile, ReadsEveryKey) {
     const SceneFile file = read(
         scratch,
         "[camera]\neye = [1, 2, 3]\ntarget = [0, 1, 0]\nup = [0, 0, 1]\nvertical_angle_deg = 30\n"
+        "shift = [0.1, -0.2]\nf_number = 4\nsensor_height_mm = 24\nfocus_distance = 2.5\n"
+        "aperture_blades = 6\n"
         "[fabrics.a]\ndye = \"flat.csv\"\nf0 = 0.1\ntransmittance = 0.2\nweft_tint = \"#ff0000\"\n"
         "warp_dye = 0.3\nlustre = \"dull\"\ndelustre = 0.4\n"
         "warp_tint = \"flat.csv\"\nspecular_tint = 0.9\n[fabrics.b]\nreflectance = 0.25\n"
@@ -184,6 +186,11 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(file.camera->eye, glm::dvec3(1, 2, 3));
     EXPECT_EQ(file.camera->up, glm::dvec3(0, 0, 1));
     EXPECT_NEAR(file.camera->vertical_angle, 30 * kDegree, 1e-12);
+    EXPECT_EQ(file.camera->shift, glm::dvec2(0.1, -0.2));
+    EXPECT_EQ(file.camera->lens->f_number, 4);
+    EXPECT_NEAR(file.camera->lens->sensor_height, 0.024, 1e-12);
+    EXPECT_EQ(file.camera->lens->focus_distance, 2.5);
+    EXPECT_EQ(file.camera->lens->blades, 6);
     EXPECT_NEAR(file.fabrics[0].dye->at(500), 0.5, 1e-12);
     EXPECT_EQ(file.fabrics[0].transmittance, Spectrum::constant(0.2));
     EXPECT_EQ(file.fabrics[0].warp_dye, Spectrum::constant(0.3));
@@ -233,6 +240,29 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(file.output.look.adapt, Adaptation::cat02);
     EXPECT_EQ(file.output.look.view, "Plain");
     EXPECT_EQ(file.output.look.exposure_stops, -1);
+}
+
+TEST(SceneFile, CamerasFrameWithTheirOptics) {
+    const Scratch scratch;
+    const auto camera = [&](const std::string &keys) {
+        std::string text = small_scene();
+        text.replace(text.find("width = 16"), 10, "width = 16\n" + keys);
+        return build_scene(read(scratch, text)).scene.camera;
+    };
+    const Camera sharp = camera("f_number = 2.8\nfocus = [0, 0.3, 0.2]\n");
+    EXPECT_NEAR(*sharp.lens->focus_distance, distance_along_view(sharp, {0, 0.3, 0.2}), 1e-12);
+    EXPECT_LT(*sharp.lens->focus_distance, glm::distance(sharp.eye, sharp.target));
+    EXPECT_FALSE(camera("f_number = 2.8\n").lens->focus_distance) << "the target's";
+    // 0.6 m with 8 % free
+    const Camera parallel = camera("projection = \"orthographic\"\nazimuth_deg = 0\n"
+                                   "elevation_deg = 0\n");
+    EXPECT_NEAR(*parallel.orthographic_height, 0.6 / 0.92, 1e-9);
+    EXPECT_EQ(
+        camera("projection = \"orthographic\"\northographic_height = 3\n").orthographic_height, 3);
+    // Behind the camera
+    std::string text = small_scene();
+    text.replace(text.find("width = 16"), 10, "width = 16\nf_number = 2\nfocus = [0, 0, 1000]\n");
+    EXPECT_THROW(build_scene(read(scratch, text)), Error);
 }
 
 TEST(SceneFile, ReadsThatOfTheSamples) {
@@ -305,6 +335,26 @@ INSTANTIATE_TEST_SUITE_P(
                  "8, 16 or 32"},
         BadInput{"EyeAndAzimuth", "width = 16", "eye = [0,0,2]\ntarget = [0,0,0]\nmargin = 0.1",
                  "4:10", "beside eye", "frames"},
+        BadInput{"UnknownProjection", "width = 16", "projection = \"flat\"", "2:14", "flat",
+                 "orthographic"},
+        BadInput{"HeightOfAPerspective", "width = 16", "orthographic_height = 2", "2:23",
+                 "in a perspective", "projection"},
+        BadInput{"AngleOfParallelRays", "width = 16",
+                 "projection = \"orthographic\"\nvertical_angle_deg = 20", "3:22", "no angle",
+                 "orthographic_height"},
+        BadInput{"NoHeightBesideEye", "width = 16",
+                 "projection = \"orthographic\"\neye = [0,0,2]\ntarget = [0,0,0]", "2:14",
+                 "is missing", "1.8"},
+        BadInput{"LensOfParallelRays", "width = 16", "projection = \"orthographic\"\nf_number = 2",
+                 "3:12", "no lens", "f_number"},
+        BadInput{"ShiftOfOneNumber", "width = 16", "shift = [0.1]", "2:9", "no shift", "[0, 0.1]"},
+        BadInput{"ShiftTooFar", "width = 16", "shift = [0, 11]", "2:9", "no shift", "10"},
+        BadInput{"FocusWithoutLens", "width = 16", "focus_distance = 2", "2:18", "without f_number",
+                 "2.8"},
+        BadInput{"TwoFocuses", "width = 16", "f_number = 2\nfocus_distance = 2\nfocus = [0,0,0]",
+                 "4:9", "both", "one of them"},
+        BadInput{"TwoBlades", "width = 16", "f_number = 2\naperture_blades = 2", "3:19", "2 blades",
+                 "3 to 16"},
         BadInput{"NotToml", "width = 16", "width = = 16", "2:9", "", "TOML"}),
     [](const auto &input) { return std::string(input.param.name); });
 

@@ -6,6 +6,7 @@
 
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "tsuya/sdk/render.h"
 
 namespace tsuya::scene {
 namespace {
@@ -116,6 +117,68 @@ TEST(Framing, TouchesTheSidesOfWhatIsWide) {
         frame_points({{-2, 0, 0}, {3, 0, 0}, {0, 0.1, 0}}, {.margin = 0.2, .width = 100});
     EXPECT_NEAR(project_point(camera, {-2, 0, 0}).x, 10, 1e-6);
     EXPECT_NEAR(project_point(camera, {3, 0, 0}).x, 90, 1e-6);
+}
+
+TEST(Framing, FramesWithAShiftAndByParallelRays) {
+    const std::vector<glm::dvec3> points{{-0.3, 0, 0.2}, {0.4, 0, -0.1}, {0, 1.75, 0}, {0, 1, 0.5}};
+    for (const bool orthographic : {false, true}) {
+        const Framing framing{.azimuth = 0.5,
+                              .elevation = 0.1,
+                              .margin = 0.1,
+                              .orthographic = orthographic,
+                              .shift = {0.3, -0.25}};
+        const Camera camera = frame_points(points, framing);
+        EXPECT_EQ(camera.shift, framing.shift);
+        double top = 1e9, bottom = -1e9;
+        for (const glm::dvec3 &p : points) {
+            const glm::dvec3 pixel = project_point(camera, p);
+            EXPECT_GT(pixel.z, 0);
+            EXPECT_GE(pixel.x, 0.05 * camera.width - 1e-6);
+            EXPECT_LE(pixel.x, 0.95 * camera.width + 1e-6);
+            top = std::min(top, pixel.y);
+            bottom = std::max(bottom, pixel.y);
+        }
+        EXPECT_NEAR(top, 0.05 * camera.height, 1e-6);
+        EXPECT_NEAR(bottom, 0.95 * camera.height, 1e-6);
+    }
+}
+
+// Where project_point says that a camera sees a point, there a render shows it.
+TEST(Camera, ProjectsAsItIsRendered) {
+    const glm::dvec3 point(0.13, 0.9, -0.2);
+    Camera camera{.eye = {0.5, 1.4, 3}, .target = {0, 1, 0}, .width = 64, .height = 48};
+    std::vector<Camera> cameras(3, camera);
+    cameras[1].shift = {0.2, -0.15};
+    cameras[2].shift = {-0.1, 0.1};
+    cameras[2].orthographic_height = 1.6;
+    for (const Camera &one : cameras) {
+        Scene scene;
+        scene.surfaces = {{.position = {point, point, point},
+                           .normal = std::vector<glm::vec3>(3, {0, 0, 1}),
+                           .triangle = {{0, 1, 2}}}};
+        scene.surfaces[0].position[0] += glm::dvec3(-0.03, -0.02, 0);
+        scene.surfaces[0].position[1] += glm::dvec3(0.03, -0.02, 0);
+        scene.surfaces[0].position[2] += glm::dvec3(0, 0.04, 0);
+        scene.fabrics = {{.name = "plain"}};
+        scene.objects = {{"point", {0}, {0}}};
+        scene.environment = Environment{};
+        scene.camera = one;
+        const Image coverage =
+            render(scene, {.stop = {.samples_per_pixel = 256}, .channels = 8, .aovs = {"coverage"}})
+                .image.aovs[0];
+        glm::dvec2 sum(0);
+        double area = 0;
+        for (int y = 0; y < one.height; ++y)
+            for (int x = 0; x < one.width; ++x) {
+                const double share = *coverage.pixel(x, y);
+                area += share;
+                sum += share * glm::dvec2(x + 0.5, y + 0.5);
+            }
+        ASSERT_GT(area, 2);
+        const glm::dvec3 pixel = project_point(one, point);
+        EXPECT_NEAR(sum.x / area, pixel.x, 0.05);
+        EXPECT_NEAR(sum.y / area, pixel.y, 0.05);
+    }
 }
 
 TEST(Framing, RefusesNothingAndNonsense) {

@@ -16,7 +16,7 @@ using namespace tsuya;
 using namespace tsuya::test;
 
 constexpr int kWidth = 80, kHeight = 48;
-constexpr double kPixelAngle = 1e-3;
+const Camera kCamera{.vertical_angle = 0.1, .height = 100};
 constexpr std::size_t kNormalX = 0, kObject = 10; // of Film::features
 
 using OfPixel = std::function<double(int x, int y)>;
@@ -61,7 +61,7 @@ struct TestFilm {
     SpectralImage developed() const { return film.develop(scene, settings); }
     SpectralImage denoised() const {
         SpectralImage image = developed();
-        EXPECT_TRUE(denoise(film, kPixelAngle, image, {}));
+        EXPECT_TRUE(denoise(film, kCamera, image, {}));
         return image;
     }
 
@@ -229,10 +229,10 @@ TEST(Denoise, StopsAndTellsHowFarItIs) {
     test.fill(half, noise(0.1));
     SpectralImage image = test.developed();
     std::atomic<bool> stop = true;
-    EXPECT_FALSE(denoise(test.film, kPixelAngle, image, {.stop = &stop}));
+    EXPECT_FALSE(denoise(test.film, kCamera, image, {.stop = &stop}));
     double last = -1;
     EXPECT_TRUE(
-        denoise(test.film, kPixelAngle, image, {.report = [&](std::string_view stage, double done) {
+        denoise(test.film, kCamera, image, {.report = [&](std::string_view stage, double done) {
                     EXPECT_EQ(stage, "denoise");
                     last = done;
                 }}));

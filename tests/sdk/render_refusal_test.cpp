@@ -137,6 +137,28 @@ TEST(Errors, OneProblemForOneCause) {
     scene = good;
     scene.surfaces[0].position[5].y = 1e10;
     EXPECT_EQ(only_where(scene), "surfaces[0]");
+    const auto with = [&](auto &&change) {
+        scene = good;
+        change(scene.camera);
+        return only_where(scene);
+    };
+    EXPECT_EQ(with([](Camera &c) { c.shift.y = -11; }), "camera.shift");
+    EXPECT_EQ(with([](Camera &c) { c.shift.x = std::nan(""); }), "camera.shift");
+    for (const double height : {0.0, -1.0, std::nan(""), 1e10})
+        EXPECT_EQ(with([&](Camera &c) { c.orthographic_height = height; }),
+                  "camera.orthographic_height");
+    EXPECT_EQ(with([](Camera &c) {
+                  c.orthographic_height = 1;
+                  c.lens = Lens{};
+              }),
+              "camera.lens");
+    EXPECT_EQ(with([](Camera &c) { c.lens = Lens{.f_number = 0}; }), "camera.lens.f_number");
+    EXPECT_EQ(with([](Camera &c) { c.lens = Lens{.sensor_height = -1}; }),
+              "camera.lens.sensor_height");
+    EXPECT_EQ(with([](Camera &c) { c.lens = Lens{.focus_distance = -2.0}; }),
+              "camera.lens.focus_distance");
+    for (const int blades : {-1, 1, 2, 17})
+        EXPECT_EQ(with([&](Camera &c) { c.lens = Lens{.blades = blades}; }), "camera.lens.blades");
 }
 
 TEST(Errors, StopRulesAreFinite) {

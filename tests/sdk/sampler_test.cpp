@@ -50,6 +50,15 @@ TEST(Sampler, EveryDimensionIsStratified) {
             }
 }
 
+TEST(Sampler, FurtherDimensionsAreStratified) {
+    for (const int axis : {0, 1}) {
+        std::vector<int> count(kPoints);
+        for (std::uint32_t i = 0; i < kPoints; ++i)
+            ++count[static_cast<std::size_t>(Sampler(99, i).further_pair()[axis] * kPoints)];
+        EXPECT_EQ(count, std::vector<int>(kPoints, 1));
+    }
+}
+
 TEST(Sampler, PairsAreDistributedJointly) {
     const auto product = [](glm::vec2 a, glm::vec2 b) {
         return double(a.x - 0.5f) * double(b.x - 0.5f) + double(a.y - 0.5f) * double(b.y - 0.5f);
@@ -60,12 +69,16 @@ TEST(Sampler, PairsAreDistributedJointly) {
     const auto other = [&](const Sampler &s) {
         return product(s.pair(Purpose::light_point, 2), s.pair(Purpose::direction));
     };
+    const auto further = [&](const Sampler &s) {
+        return product(s.pair(Purpose::pixel), s.further_pair());
+    };
     const auto apart = [&](const Sampler &s) { // negative control
         return product(s.pair(Purpose::pixel), s.lone_pair(5));
     };
     const double random = std::sqrt(2.0) / 12 / std::sqrt(double(kPoints));
     EXPECT_LT(error(joint), 0.2 * random);
     EXPECT_LT(error(other), 0.2 * random);
+    EXPECT_LT(error(further), 0.2 * random);
     EXPECT_NEAR(error(apart), random, 0.3 * random);
 }
 

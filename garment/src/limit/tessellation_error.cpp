@@ -79,8 +79,7 @@ TessellationError measure_tessellation(const PolygonMesh &mesh, const SubdivideO
     LimitSurface::Scratch scratch;
     std::vector<Corner> corners;
     const auto pixels_per_metre = [&](const glm::dvec3 &p) {
-        return camera ? camera->height / (2.0 * std::tan(0.5 * camera->vertical_angle) *
-                                          glm::distance(p + surface.centre(), camera->eye))
+        return camera ? 1 / pixel_width(*camera, glm::distance(p + surface.centre(), camera->eye))
                       : 0.0;
     };
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {

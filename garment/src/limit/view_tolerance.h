@@ -2,7 +2,7 @@
 /// \file
 /// How exact a face must be for a camera and its lights.
 
-#include <array>
+#include <vector>
 
 #include "tsuya/garment/subdivide.h"
 
@@ -17,6 +17,13 @@ class ViewNeed {
     double tolerance(const glm::dvec3 &centre, double radius) const;
 
   private:
+    /// A plane about what the camera sees.
+    struct Plane {
+        glm::dvec3 normal; ///< inward
+        double at_eye;     ///< distance of the eye inside of it, metres
+    };
+    void bound_perspective(const CameraAxes &axes);
+    void bound_parallel(const CameraAxes &axes);
     /// Tolerance of what a pixel sees at a distance or beyond, metres.
     double footprint(double distance) const;
     bool seen(const glm::dvec3 &centre, double radius) const;
@@ -24,9 +31,9 @@ class ViewNeed {
     double shadow_tolerance(const glm::dvec3 &centre, double radius, const ViewLight &light) const;
 
     ViewTolerance view_;
-    double pixel_; ///< tolerance in metres at a distance of one metre
-    /// Normals of the planes of the view, inward, through the eye.
-    std::array<glm::dvec3, 5> plane_;
+    double pixel_;        ///< tolerance in metres, of a perspective at a distance of one metre
+    double aperture_ = 0; ///< its radius, metres
+    std::vector<Plane> plane_{};
 };
 
 } // namespace tsuya::garment

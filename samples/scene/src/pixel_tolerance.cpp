@@ -27,6 +27,12 @@ garment::ViewTolerance view_of(const Scene &scene, const std::vector<glm::dvec3>
     const double nearest = nearest_in_picture(scene.camera, points);
     if (nearest < std::numeric_limits<double>::infinity())
         view.nearest = std::max(0.5 * nearest, view.nearest);
+    if (scene.camera.orthographic_height) {
+        view.farthest = view.nearest;
+        for (const Surface &surface : scene.surfaces)
+            for (const glm::dvec3 &p : surface.position)
+                view.farthest = std::max(view.farthest, glm::distance(p, scene.camera.eye));
+    }
     view.camera.eye -= translate;
     view.camera.target -= translate;
     for (const RectangleLight &light : scene.rectangles)

@@ -210,6 +210,8 @@ struct SceneBuilder {
         scene.rectangles = file.lights;
         scene.environment = file.environment;
         scene.camera = file.camera ? *file.camera : frame_points(meshes.points(), file.framing);
+        if (file.focus && scene.camera.lens)
+            scene.camera.lens->focus_distance = distance_along_view(scene.camera, *file.focus);
     }
 
     void check_and_refine() {

@@ -53,48 +53,6 @@ void SceneReader::read() {
                       "expected [lights.NAME] or [environment]");
 }
 
-void SceneReader::read_camera() {
-    Framing &framing = file_.framing;
-    framing = {.azimuth = 25 * kDegree, .elevation = 3 * kDegree, .vertical_angle = 24 * kDegree};
-    const auto camera = root_.section("camera");
-    if (!camera)
-        return;
-    framing.width = camera->integer("width", 1, 32768).value_or(framing.width);
-    framing.height = camera->integer("height", 1, 32768).value_or(framing.height);
-    framing.vertical_angle = camera->number("vertical_angle_deg", 0.1, 179).value_or(24) * kDegree;
-    const auto eye = camera->vector("eye"), target = camera->vector("target"),
-               up = camera->vector("up");
-    if (!eye) {
-        if (target || up)
-            camera->problem(target ? "target" : "up", "the camera has no eye",
-                            "expected eye with target and up, or azimuth_deg and elevation_deg");
-        return read_framing(*camera);
-    }
-    for (const char *key : {"azimuth_deg", "elevation_deg", "margin"})
-        if (camera->has(key))
-            camera->problem(key, std::string(key) + " has no meaning beside eye",
-                            "expected eye, target and up, or a camera that frames by itself");
-    if (!target)
-        camera->problem("target", "'target' is missing", "expected a point beside eye");
-    file_.camera = Camera{.eye = *eye,
-                          .target = target.value_or(*eye - glm::dvec3(0, 0, 1)),
-                          .up = up.value_or(glm::dvec3(0, 1, 0)),
-                          .vertical_angle = framing.vertical_angle,
-                          .width = framing.width,
-                          .height = framing.height};
-    const Camera &c = *file_.camera;
-    if (!(glm::length(glm::cross(c.target - c.eye, c.up)) > 0))
-        camera->problem("target", "the camera looks nowhere or along its up direction",
-                        "expected eye and target apart, and up not parallel to the view");
-}
-
-void SceneReader::read_framing(const Section &camera) {
-    Framing &framing = file_.framing;
-    framing.azimuth = camera.number("azimuth_deg", -360, 360).value_or(25) * kDegree;
-    framing.elevation = camera.number("elevation_deg", -89, 89).value_or(3) * kDegree;
-    framing.margin = camera.number("margin", 0, 0.9).value_or(framing.margin);
-}
-
 void SceneReader::read_backdrop() {
     const auto section = root_.section("backdrop");
     if (!section)

@@ -17,8 +17,8 @@ inline constexpr double kPlainReflectance = 0.5;
 inline constexpr double kLargest = 1e6;   // metres, radiance, ...
 inline constexpr double kSmallest = 1e-6; // of what has to be above 0
 
-// Member functions stand in scene_reader.cpp, fabrics and pictures in cloth_sections.cpp, meshes in
-// mesh_sections.cpp.
+// Member functions stand in scene_reader.cpp, the camera in camera_section.cpp, fabrics and pictures
+// in cloth_sections.cpp, meshes in mesh_sections.cpp.
 
 class SceneReader {
   public:
@@ -32,6 +32,8 @@ class SceneReader {
   private:
     void read_camera();
     void read_framing(const Section &camera);
+    void read_projection(const Section &camera);
+    void read_lens(const Section &camera);
     void read_fabrics();
     void read_meshes(const char *kind, bool yarn, std::vector<MeshEntry> &entries);
     // Further shapes of a mesh.

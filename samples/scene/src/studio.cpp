@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
@@ -35,14 +36,77 @@ void need(bool rule, const char *what, const char *where, const char *accepted) 
         throw Error({what, where, accepted});
 }
 
-/// Right, up and back of a camera, orthonormal.
-struct CameraAxes {
-    glm::dvec3 right, up, back;
+/// How far points may lie from the middle of the view, as shares of half the picture.
+struct Reach {
+    double low, high;
 };
 
-CameraAxes axes_of(const glm::dvec3 &back, const glm::dvec3 &up) {
-    const glm::dvec3 right = glm::normalize(glm::cross(up, back));
-    return {right, glm::cross(back, right), back};
+Reach reach_of(double margin, double shift) {
+    return {-(1 - margin) + 2 * shift, 1 - margin + 2 * shift};
+}
+
+/// Bounds of points along the axes of a camera at the origin, and their mean distance from it.
+struct AxialBounds {
+    glm::dvec3 lower{std::numeric_limits<double>::max()}, upper{-lower};
+    double middle = 0; ///< backwards
+
+    AxialBounds(const std::vector<glm::dvec3> &points, const CameraAxes &axes) {
+        for (const glm::dvec3 &p : points) {
+            const glm::dvec3 at(glm::dot(p, axes.right), glm::dot(p, axes.up),
+                                -glm::dot(p, axes.forward));
+            lower = glm::min(lower, at);
+            upper = glm::max(upper, at);
+            middle += at.z / static_cast<double>(points.size());
+        }
+    }
+};
+
+void place(const CameraAxes &axes, double right, double up, double back, double middle,
+           Camera &camera) {
+    const glm::dvec3 in_plane = right * axes.right + up * axes.up;
+    camera.eye = in_plane - back * axes.forward;
+    camera.target = in_plane - middle * axes.forward;
+}
+
+/// As near as a perspective sees all points.
+void stand_near(const std::vector<glm::dvec3> &points, const Framing &f, const CameraAxes &axes,
+                Camera &camera) {
+    const double slope = std::tan(0.5 * f.vertical_angle);
+    const Reach x_reach = reach_of(f.margin, f.shift.x), y_reach = reach_of(f.margin, f.shift.y);
+    const double x_low = slope * x_reach.low * f.width / f.height;
+    const double x_high = slope * x_reach.high * f.width / f.height;
+    const double y_low = slope * y_reach.low, y_high = slope * y_reach.high;
+    // Every point bounds the eye by four planes, e.g. y + slope z <= eye_y + slope eye_z
+    constexpr double kLow = -std::numeric_limits<double>::infinity();
+    double right = kLow, left = kLow, top = kLow, bottom = kLow;
+    for (const glm::dvec3 &p : points) {
+        const double x = glm::dot(p, axes.right), y = glm::dot(p, axes.up);
+        const double z = -glm::dot(p, axes.forward);
+        right = std::max(right, x + x_high * z);
+        left = std::max(left, -x - x_low * z);
+        top = std::max(top, y + y_high * z);
+        bottom = std::max(bottom, -y - y_low * z);
+    }
+    const double eye_z =
+        std::max((right + left) / (x_high - x_low), (top + bottom) / (y_high - y_low));
+    const double middle = AxialBounds(points, axes).middle;
+    need(eye_z > middle, "the points enclose no space", "camera", "expected points apart");
+    place(axes, 0.5 * (right - left - (x_high + x_low) * eye_z),
+          0.5 * (top - bottom - (y_high + y_low) * eye_z), eye_z, middle, camera);
+}
+
+/// Clear of all points, which parallel rays show in one size from everywhere.
+void stand_parallel(const std::vector<glm::dvec3> &points, const Framing &f, const CameraAxes &axes,
+                    Camera &camera) {
+    const AxialBounds bounds(points, axes);
+    const glm::dvec3 size = bounds.upper - bounds.lower;
+    const double needed = std::max(size.y, size.x * f.height / f.width) / (1 - f.margin);
+    const double height = f.orthographic_height.value_or(needed);
+    need(height > 0, "the points enclose no space", "camera", "expected points apart");
+    camera.orthographic_height = height;
+    const glm::dvec3 middle = 0.5 * (bounds.lower + bounds.upper);
+    place(axes, middle.x - f.shift.x * height * f.width / f.height, middle.y - f.shift.y * height,
+          bounds.upper.z + height, bounds.middle, camera);
 }
 
 } // namespace
@@ -124,39 +188,30 @@ Camera frame_points(const std::vector<glm::dvec3> &points, const Framing &f) {
          "expected a share of 0 to 0.9");
     need(std::abs(f.elevation) < 0.5 * kPi, "the elevation is wrong", "camera",
          "expected more than -90 and less than 90 degrees");
-    const CameraAxes axes = axes_of(direction_of(f.azimuth, f.elevation), {0, 1, 0});
-    const double slope_y = std::tan(0.5 * f.vertical_angle) * (1 - f.margin);
-    const double slope_x = slope_y * f.width / f.height;
-
-    // Every point bounds the eye by four planes, e.g. y + slope z <= eye_y + slope eye_z
-    constexpr double kLow = -std::numeric_limits<double>::infinity();
-    double right = kLow, left = kLow, top = kLow, bottom = kLow, middle = 0;
-    for (const glm::dvec3 &p : points) {
-        const double x = glm::dot(p, axes.right), y = glm::dot(p, axes.up);
-        const double z = glm::dot(p, axes.back);
-        right = std::max(right, x + slope_x * z);
-        left = std::max(left, -x + slope_x * z);
-        top = std::max(top, y + slope_y * z);
-        bottom = std::max(bottom, -y + slope_y * z);
-        middle += z / static_cast<double>(points.size());
-    }
-    const double eye_z = std::max((right + left) / (2 * slope_x), (top + bottom) / (2 * slope_y));
-    const glm::dvec3 in_plane = 0.5 * (right - left) * axes.right + 0.5 * (top - bottom) * axes.up;
-    need(eye_z > middle, "the points enclose no space", "camera", "expected points apart");
-    return {.eye = in_plane + eye_z * axes.back,
-            .target = in_plane + middle * axes.back,
-            .vertical_angle = f.vertical_angle,
-            .width = f.width,
-            .height = f.height};
+    need(!f.orthographic_height || *f.orthographic_height > 0, "the height is wrong", "camera",
+         "expected an orthographic height above 0 m");
+    const glm::dvec3 back = direction_of(f.azimuth, f.elevation);
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
+    const CameraAxes axes{right, glm::cross(back, right), -back};
+    Camera camera{.vertical_angle = f.vertical_angle,
+                  .width = f.width,
+                  .height = f.height,
+                  .lens = f.lens,
+                  .shift = f.shift};
+    if (f.orthographic)
+        stand_parallel(points, f, axes, camera);
+    else
+        stand_near(points, f, axes, camera);
+    return camera;
 }
 
 glm::dvec3 project_point(const Camera &camera, const glm::dvec3 &point) {
-    const CameraAxes axes = axes_of(glm::normalize(camera.eye - camera.target), camera.up);
+    const CameraAxes axes = axes_of(camera);
     const glm::dvec3 offset = point - camera.eye;
-    const double distance = -glm::dot(offset, axes.back);
-    const double pixels = 0.5 * camera.height / (std::tan(0.5 * camera.vertical_angle) * distance);
-    return {0.5 * camera.width + glm::dot(offset, axes.right) * pixels,
-            0.5 * camera.height - glm::dot(offset, axes.up) * pixels, distance};
+    const double distance = glm::dot(offset, axes.forward);
+    const double pixels = 1 / pixel_width(camera, distance);
+    return {(0.5 - camera.shift.x) * camera.width + glm::dot(offset, axes.right) * pixels,
+            (0.5 + camera.shift.y) * camera.height - glm::dot(offset, axes.up) * pixels, distance};
 }
 
 } // namespace tsuya::scene

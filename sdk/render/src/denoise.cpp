@@ -227,11 +227,11 @@ double total(const SpectralImage &image) {
 
 } // namespace
 
-std::optional<double> denoise(const Film &film, double pixel_angle, SpectralImage &image,
+std::optional<double> denoise(const Film &film, const Camera &camera, SpectralImage &image,
                               const Progress &progress) {
     progress("denoise", 0);
     const double before = total(image);
-    const GuidePlanes guide(film, pixel_angle);
+    const GuidePlanes guide(film, camera);
     std::atomic<std::size_t> finished{0};
     std::mutex reporting;
     tbb::parallel_for(std::size_t{0}, film.tiles.size(), [&](std::size_t t) {

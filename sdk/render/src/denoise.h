@@ -14,10 +14,9 @@ namespace tsuya {
 // speck in one half, which neither the other half nor the pixels around have, is lowered to what is
 // likely there.
 // Differs from [Rousselle2012]: one pass, and features weigh, too.
-// \param pixel_angle of a pixel, radians
 // \return the share by which the mean of the picture changed; empty where progress.stop became
 // true: the image is only partly filtered then
-std::optional<double> denoise(const Film &film, double pixel_angle, SpectralImage &image,
+std::optional<double> denoise(const Film &film, const Camera &camera, SpectralImage &image,
                               const Progress &progress);
 
 } // namespace tsuya

@@ -30,7 +30,7 @@ float lesser(float a, float b) { return std::abs(a) < std::abs(b) ? a : b; }
 
 } // namespace
 
-GuidePlanes::GuidePlanes(const Film &film, double pixel_angle)
+GuidePlanes::GuidePlanes(const Film &film, const Camera &camera)
     : x0_(film.tiles.front().x0), y0_(film.tiles.front().y0), x1_(film.tiles.back().x1),
       y1_(film.tiles.back().y1), columns_(static_cast<std::size_t>(x1_ - x0_ + 2 * kMargin)),
       rows_(static_cast<std::size_t>(y1_ - y0_ + 2 * kMargin)) {
@@ -42,7 +42,7 @@ GuidePlanes::GuidePlanes(const Film &film, double pixel_angle)
     });
     find_specks();
     set_variance();
-    set_scales(pixel_angle);
+    set_scales(camera);
     fill_margin();
 }
 
@@ -145,7 +145,11 @@ void GuidePlanes::set_variance() {
     }
 }
 
-void GuidePlanes::set_scales(double pixel_angle) {
+void GuidePlanes::set_scales(const Camera &camera) {
+    // Of a pixel in a perspective, or by parallel rays
+    const auto angle = static_cast<float>(
+        camera.orthographic_height ? 0.0 : camera.vertical_angle / camera.height);
+    const auto size = static_cast<float>(camera.orthographic_height ? pixel_width(camera, 0) : 0.0);
     each_row(y0_, y1_, [&](int y) {
         for (int x = x0_; x < x1_; ++x) {
             const float z = *at(kDepth, x, y);
@@ -157,8 +161,8 @@ void GuidePlanes::set_scales(double pixel_angle) {
                         along_y = lesser(z - above, below - z);
             *at(kDepthX, x, y) = along_x;
             *at(kDepthY, x, y) = along_y;
-            const float width = kDepthPixels * static_cast<float>(pixel_angle) * z +
-                                2 * (std::abs(along_x) + std::abs(along_y));
+            const float width =
+                kDepthPixels * (angle * z + size) + 2 * (std::abs(along_x) + std::abs(along_y));
             *at(kDepthScale, x, y) = width > 0 ? 1 / (width * width) : 0.0f;
             float albedo = 0;
             for (std::size_t b = 0; b < kBands; ++b)

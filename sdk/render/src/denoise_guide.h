@@ -24,8 +24,7 @@ struct GuidePlanes {
                                  kDepthScale = kDepthY + 1, kAlbedoScale = kDepthScale + 1,
                                  kValid = kAlbedoScale + 1, kPlanes = kValid + 1;
 
-    // \param pixel_angle of the picture's middle, radians
-    GuidePlanes(const Film &film, double pixel_angle);
+    GuidePlanes(const Film &film, const Camera &camera);
 
     // A row of a plane from the pixel on; coordinates of the picture.
     const float *at(std::size_t plane, int x, int y) const {
@@ -48,7 +47,7 @@ struct GuidePlanes {
     void find_specks();
     float speck_at(int x, int y) const;
     void set_variance();
-    void set_scales(double pixel_angle);
+    void set_scales(const Camera &camera);
     void fill_margin();
 
     int x0_, y0_, x1_, y1_;

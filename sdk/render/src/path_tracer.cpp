@@ -111,11 +111,11 @@ template <int K> bool PathTracer<K>::find_next(const Path &path, Hit &hit) {
 // From the hit on through holes, each by chance, to what the ray meets.
 // \param from_camera the ray is the camera's, whose numbers are its own
 template <int K> bool PathTracer<K>::pass_holes(const Path &path, bool from_camera, Hit &hit) {
-    const float angle = from_camera ? scene_.pixel_angle() : 0;
     float distance = 0;
     for (std::uint32_t layer = 0; layer < kMostHoles; ++layer) {
         distance += hit.distance;
-        const float opacity = scene_.opacity(hit, angle * distance);
+        const float opacity =
+            scene_.opacity(hit, from_camera ? scene_.camera.pixel_width(distance) : 0);
         if (opacity >= 1 ||
             path.sampler.lone_pair(from_camera ? layer : kMostHoles + layer).x < opacity) {
             hit.distance = distance;
@@ -282,9 +282,11 @@ void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Chann
         RayPacket rays{.count = std::min(samplers.size() - begin, RayPacket::kMost)};
         for (std::size_t i = 0; i < rays.count; ++i) {
             const glm::vec2 place = filter_sample(samplers[begin + i].pair(Purpose::pixel));
-            rays.origin[i] = scene_.eye;
-            rays.direction[i] = scene_.camera_direction(static_cast<float>(x) + 0.5f + place.x,
-                                                        static_cast<float>(y) + 0.5f + place.y);
+            const CameraRay ray =
+                scene_.camera.through(static_cast<float>(x) + 0.5f + place.x,
+                                      static_cast<float>(y) + 0.5f + place.y, samplers[begin + i]);
+            rays.origin[i] = ray.origin;
+            rays.direction[i] = ray.direction;
             rays.farthest[i] = kInfinity;
         }
         std::array<Hit, RayPacket::kMost> hits;
@@ -293,7 +295,7 @@ void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Chann
         for (std::size_t i = 0; i < rays.count; ++i) {
             Path path{.sampler = samplers[begin + i],
                       .radiance = radiance + (begin + i) * groups,
-                      .origin = scene_.eye,
+                      .origin = rays.origin[i],
                       .direction = rays.direction[i]};
             follow(path, hits[i], first ? first + begin + i : nullptr);
         }

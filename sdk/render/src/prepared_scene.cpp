@@ -92,11 +92,11 @@ PreparedScene::PreparedScene(const Scene &the_scene, const Plan &the_plan, bool 
                              const Progress &progress)
     : scene(the_scene), plan(the_plan), centre(middle_of(the_scene)),
       accelerator(the_scene, centre, progress),
-      lights(the_scene, the_plan, centre, radius_of(the_scene, centre)) {
+      lights(the_scene, the_plan, centre, radius_of(the_scene, centre)),
+      camera(the_scene.camera, centre) {
     prepare_prints(basis);
     prepare_sides();
     prepare_fabrics(keep_idle_parts, basis, kept, progress);
-    prepare_camera();
 }
 
 void PreparedScene::prepare_prints(const SpectralBasis &basis) {
@@ -229,8 +229,9 @@ Colours PreparedScene::printed(const SurfacePoint &point, float distance,
     const Cloth &cloth = cloths_[point.cloth];
     Colours c = colours[point.colours];
     Dyes dyes = dyes_[cloth.fabric];
-    prints_[*cloth.print].dye(point.uv, distance * (seen_by_camera ? pixel_angle_ : kBounceAngle),
-                              dyes.weft, dyes.warp);
+    prints_[*cloth.print].dye(
+        point.uv, seen_by_camera ? camera.pixel_width(distance) : distance * kBounceAngle,
+        dyes.weft, dyes.warp);
     if (point.colours != point.cloth) // its own back
         std::swap(dyes.weft, dyes.warp);
     const std::vector<glm::vec2> &of_dye = of_dye_[point.cloth];
@@ -287,24 +288,6 @@ glm::vec3 PreparedScene::behind(const glm::vec3 &direction, const Hit &hit) cons
     const glm::vec3 normal = hit.face_normal / glm::length(hit.face_normal);
     const float error = position_error({positions[t.x], positions[t.y], positions[t.z]}, normal);
     return point + (glm::dot(normal, direction) > 0 ? error : -error) * normal;
-}
-
-void PreparedScene::prepare_camera() {
-    const Camera &camera = scene.camera;
-    const double half_height = std::tan(0.5 * camera.vertical_angle);
-    const glm::dvec3 ahead = glm::normalize(camera.target - camera.eye);
-    const glm::dvec3 aside = glm::normalize(glm::cross(ahead, camera.up));
-    eye = camera.eye - centre;
-    forward = ahead;
-    right = aside * (half_height * camera.width / camera.height);
-    up = glm::cross(aside, ahead) * half_height;
-    pixel_angle_ = static_cast<float>(2 * half_height / camera.height);
-}
-
-glm::vec3 PreparedScene::camera_direction(float x, float y) const {
-    const float a = 2 * x / static_cast<float>(scene.camera.width) - 1;
-    const float b = 1 - 2 * y / static_cast<float>(scene.camera.height);
-    return glm::normalize(forward + a * right + b * up);
 }
 
 SurfacePoint PreparedScene::point(const glm::vec3 &direction, const Hit &hit) const {

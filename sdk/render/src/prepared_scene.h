@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "accelerator.h"
+#include "camera_rays.h"
 #include "channels.h"
 #include "dye_channels.h"
 #include "lights.h"
@@ -54,22 +55,18 @@ struct PreparedScene {
     glm::dvec3 centre; // of the scene; the origin of all that is traced
     Accelerator accelerator;
     Lights lights;
-    std::vector<Shading> shading{};    // per cloth
-    std::vector<Colours> colours{};    // per cloth, then of its own back
-    glm::vec3 eye, forward, right, up; // camera, scaled to the image plane at distance 1
     // What the cloths can show of each dye of the plan at most
     std::array<double, kMostDyes> most_dye{1, 1};
+    CameraRays camera;
+    std::vector<Shading> shading{}; // per cloth
+    std::vector<Colours> colours{}; // per cloth, then of its own back
 
-    // The direction of the camera ray through a place of the picture, in pixels.
-    glm::vec3 camera_direction(float x, float y) const;
     // Some cloth has holes.
     bool has_holes() const { return !opacities_.empty(); }
     // The share of the place that is cloth. \param footprint what one sample stands for, metres
     float opacity(const Hit &hit, float footprint) const;
     // Where a ray goes on that went through a hole.
     glm::vec3 behind(const glm::vec3 &direction, const Hit &hit) const;
-    // The angle that a pixel sees, radians.
-    float pixel_angle() const { return pixel_angle_; }
     // The point that a ray of this direction hit.
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
     bool is_printed(const SurfacePoint &point) const {
@@ -100,7 +97,6 @@ struct PreparedScene {
         Repeat repeat;
     };
     void prepare_sides();
-    void prepare_camera();
     void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials *kept,
                          const Progress &progress);
     void prepare_prints(const SpectralBasis &basis);
@@ -122,7 +118,6 @@ struct PreparedScene {
     std::vector<std::vector<glm::vec2>> of_dye_{};
     std::vector<float> weft_share_{};
     int channels_ = 0;
-    float pixel_angle_ = 0;
 };
 
 } // namespace tsuya

@@ -134,8 +134,7 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     keeper.finish();
     RenderResult result = result_so_far();
     if (settings.denoise && !interrupted) {
-        result.stats.denoise_change = denoise(
-            film, scene.camera.vertical_angle / scene.camera.height, result.image, progress);
+        result.stats.denoise_change = denoise(film, scene.camera, result.image, progress);
         interrupted = !result.stats.denoise_change;
         if (interrupted)
             result = result_so_far();

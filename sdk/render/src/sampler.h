@@ -1,6 +1,6 @@
 #pragma once
 // Random numbers that depend on pixel, sample index and purpose alone: at each vertex of a path a
-// point of one joint Sobol sequence of eight dimensions, with hashed Owen scrambling and shuffling
+// point of one joint Sobol sequence of ten dimensions, with hashed Owen scrambling and shuffling
 // [Burley].
 
 #include <cstdint>
@@ -79,6 +79,14 @@ class Sampler {
         const std::uint32_t key = hash(~key_, which);
         const SobolPoint point = sobol_reversed(nested_uniform_scramble(sample_, key));
         return scrambled(point[0], point[1], key);
+    }
+
+    // Two more dimensions of the vertex's point, distributed jointly with its pairs: for what only
+    // some scenes have.
+    glm::vec2 further_pair() const {
+        const FurtherSobolPoint point =
+            further_sobol_reversed(nested_uniform_scramble(sample_, key_));
+        return scrambled(point[0], point[1], hash(key_, 1u)); // pairs take even numbers
     }
 
   private:

@@ -244,6 +244,25 @@ struct SceneCheck {
              radiances_text() + ", times environment.radiance too");
     }
 
+    void lens(const Camera &c) {
+        const Lens &lens = *c.lens;
+        need(!c.orthographic_height, "an orthographic camera has no lens", "camera.lens",
+             "expected a lens or orthographic_height");
+        need(lens.f_number >= 0.01 && lens.f_number <= 1e6,
+             "the f-number is " + number_text(lens.f_number), "camera.lens.f_number",
+             "expected 0.01 to 1e6, such as 2.8");
+        need(lens.sensor_height >= 1e-6 && lens.sensor_height <= 1e6,
+             "the sensor is " + number_text(lens.sensor_height) + " m high",
+             "camera.lens.sensor_height", "expected 1e-6 to 1e6 m, such as 0.036");
+        need(!lens.focus_distance ||
+                 (*lens.focus_distance > 0 && *lens.focus_distance <= kLargestLength),
+             "the lens is focused at " + number_text(lens.focus_distance.value_or(0)) + " m",
+             "camera.lens.focus_distance", "expected a distance above 0 m before the camera");
+        need(lens.blades == 0 || (lens.blades >= 3 && lens.blades <= 16),
+             "the aperture has " + std::to_string(lens.blades) + " blades", "camera.lens.blades",
+             "expected 0 for a round one, or 3 to 16");
+    }
+
     void camera() {
         const Camera &c = scene.camera;
         if (!is_length(c.eye) || !is_length(c.target) || !is_length(c.up))
@@ -252,6 +271,16 @@ struct SceneCheck {
             need(glm::length(glm::cross(c.target - c.eye, c.up)) > 0,
                  "the camera looks nowhere or along its up direction", "camera",
                  "expected eye and target apart, and up not parallel to the view");
+        if (c.orthographic_height)
+            need(*c.orthographic_height > 0 && *c.orthographic_height <= kLargestLength,
+                 "the camera sees " + number_text(*c.orthographic_height) + " m",
+                 "camera.orthographic_height",
+                 "expected a height above 0 and up to " + number_text(kLargestLength) + " m");
+        need(std::abs(c.shift.x) <= 10 && std::abs(c.shift.y) <= 10,
+             "the picture is shifted too far", "camera.shift",
+             "expected shares of its width and height from -10 to 10");
+        if (c.lens)
+            lens(c);
         need(c.vertical_angle > 0 && c.vertical_angle < kPi - 1e-5, "the angle of view is wrong",
              "camera.vertical_angle", "expected more than 0 and less than 180 degrees");
         need(c.width >= 1 && c.width <= 32768 && c.height >= 1 && c.height <= 32768,

@@ -37,6 +37,9 @@ struct ViewTolerance {
     /// are as fine as if they were seen.
     bool light_from_everywhere = false;
     double nearest = 1e-3; ///< metres, > 0: nothing in the picture is nearer to the camera
+    /// Metres, > 0: nothing that an orthographic camera sees is farther from its eye. A shadow that
+    /// is thrown far shows the departures of its face enlarged.
+    double farthest = 100;
 };
 
 /// How the limit surface is sampled. Hems stay smooth curves that interpolate sharp corners (a

@@ -76,8 +76,9 @@ struct OutputEntry {
 /// directory.
 struct SceneFile {
     std::filesystem::path path{};
-    std::optional<Camera> camera{}; ///< empty: framed, see below
-    Framing framing{};              ///< of all visible garments and bodies
+    std::optional<Camera> camera{};    ///< empty: framed, see below
+    Framing framing{};                 ///< of all visible garments and bodies
+    std::optional<glm::dvec3> focus{}; ///< a point that is sharp, of a camera with a lens
     std::vector<FabricEntry> fabrics{};
     std::vector<PatternEntry> patterns{};
     std::vector<OpacityEntry> opacities{};

@@ -2,6 +2,7 @@
 /// \file
 /// A photographer's studio: a backdrop, softboxes, and a camera that frames what it is shown.
 
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -56,10 +57,16 @@ struct Framing {
     double margin = 0.08;        ///< share of half the picture left free on each side, 0 to 0.9
     int width = 800;
     int height = 1000;
+    /// Parallel rays, see Camera::orthographic_height: the camera stands clear of all points.
+    bool orthographic = false;
+    std::optional<double> orthographic_height{}; ///< metres; empty: as the points need
+    std::optional<Lens> lens{};                  ///< see Camera
+    glm::dvec2 shift{0, 0};                      ///< see Camera: the points are framed with it
 };
 
-/// The nearest camera of that direction that sees all points inside its margins; its target lies at
-/// their distance. Throws Error at `camera` for no point or values out of range.
+/// The nearest camera of that direction that sees all points inside its margins, an orthographic
+/// one with the least height; its target lies at their distance. Throws Error at `camera` for no
+/// point or values out of range.
 Camera frame_points(const std::vector<glm::dvec3> &points, const Framing &framing);
 
 /// Where a camera sees a point: x to the right and y downwards, in pixels. z is the distance along

@@ -111,14 +111,26 @@ template <class F, detail::MaybeConst<Environment> T> void each_field(F &&f, T &
     f(detail::Field{"visible"}, visible);
 }
 
+template <class F, detail::MaybeConst<Lens> T> void each_field(F &&f, T &lens) {
+    auto &[f_number, sensor_height, focus_distance, blades] = lens;
+    f(detail::Field{"f_number"}, f_number);
+    f(detail::Field{"sensor_height"}, sensor_height);
+    f(detail::Field{"focus_distance"}, focus_distance);
+    f(detail::Field{"blades"}, blades);
+}
+
 template <class F, detail::MaybeConst<Camera> T> void each_field(F &&f, T &camera) {
-    auto &[eye, target, up, vertical_angle, width, height] = camera;
+    auto &[eye, target, up, vertical_angle, width, height, orthographic_height, lens, shift] =
+        camera;
     f(detail::Field{"eye"}, eye);
     f(detail::Field{"target"}, target);
     f(detail::Field{"up"}, up);
     f(detail::Field{"vertical_angle"}, vertical_angle);
     f(detail::Field{"width"}, width);
     f(detail::Field{"height"}, height);
+    f(detail::Field{"orthographic_height"}, orthographic_height);
+    f(detail::Field{"lens"}, lens);
+    f(detail::Field{"shift"}, shift);
 }
 
 template <class F, detail::MaybeConst<Scene> T> void each_field(F &&f, T &scene) {
