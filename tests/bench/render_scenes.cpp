@@ -79,10 +79,10 @@ Scene skirt(const std::string &fabric, int lights, int size) {
         const glm::dvec3 ahead = glm::normalize(glm::dvec3(0, 0.4, 0) - middle);
         const glm::dvec3 u = 0.3 * glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
         const glm::dvec3 v = glm::cross(ahead, u);
-        scene.rectangles.push_back({.corner = middle - 0.5 * (u + v),
-                                    .edge_u = u,
-                                    .edge_v = v,
-                                    .radiance = 100.0 / lights});
+        scene.lights.push_back(RectangleLight{.corner = middle - 0.5 * (u + v),
+                                              .edge_u = u,
+                                              .edge_v = v,
+                                              .radiance = 100.0 / lights});
     }
     return scene;
 }

@@ -45,7 +45,7 @@ Image RenderedPatch::render(const lab::PlannedFrame &frame, int width, int heigh
                          ? Fabric{.name = "white", .colours = {.dye = Spectrum::constant(0.99)}}
                          : cloth};
     scene.objects = {{"patch", {0}, {0}}};
-    scene.rectangles = {lamp(in_scene(at.to_light()), lamp_m, lamp_angle)};
+    scene.lights = {lamp(in_scene(at.to_light()), lamp_m, lamp_angle)};
     scene.camera = {.eye = camera_m * in_scene(at.to_viewer()),
                     .target = {0, 0, 0},
                     .up = -in_scene(up),

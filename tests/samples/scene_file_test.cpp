@@ -225,8 +225,9 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_NEAR(file.backdrop->shape.azimuth, 90 * kDegree, 1e-12);
     EXPECT_EQ(file.backdrop->shape.back, 3);
     EXPECT_EQ(file.backdrop->reflectance.at(500), 0.3);
-    EXPECT_EQ(file.lights.at(0).radiance, 7);
-    EXPECT_NEAR(glm::length(file.lights.at(0).edge_v), 3, 1e-12);
+    const auto &light = std::get<RectangleLight>(file.lights.at(0));
+    EXPECT_EQ(light.radiance, 7);
+    EXPECT_NEAR(glm::length(light.edge_v), 3, 1e-12);
     EXPECT_EQ(file.light_groups, std::vector<std::string>{"sun"});
     EXPECT_FALSE(file.environment->visible);
     EXPECT_EQ(file.render.stop.relative_error, 0.02);
@@ -436,13 +437,14 @@ TEST(SceneFile, LightsAreNamedAsInTheFile) {
     const SceneFile file =
         read(scratch, small_scene("[lights.\"far away\"]\ncentre = [9e5, 0, 0]\nradiance = 0\n"));
     ASSERT_EQ(file.lights.size(), 2u);
-    EXPECT_EQ(file.lights[1].name, "far away");
+    EXPECT_EQ(name_of(file.lights[1]), "far away");
     EXPECT_NE(explain(plan(build_scene(file).scene, file.render))
                   .find("skipped: the light 'far away' is dark"),
               std::string::npos);
     SceneFile wrong = file;
-    wrong.lights[1].radiance = -1;
-    wrong.lights[1].corner.x = 1e30;
+    auto &light = std::get<RectangleLight>(wrong.lights[1]);
+    light.radiance = -1;
+    light.corner.x = 1e30;
     try {
         build_scene(wrong);
         ADD_FAILURE() << "accepted";

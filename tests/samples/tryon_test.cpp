@@ -35,13 +35,14 @@ TEST(TryOn, LightsTheGarmentFromTheLeftOfThePicture) {
         job.azimuth_deg = azimuth;
         const Scene scene = make_try_on_scene(job).scene;
         EXPECT_EQ(scene.light_groups, (std::vector<std::string>{"key", "fill"}));
-        ASSERT_EQ(scene.rectangles.size(), 2u);
+        ASSERT_EQ(scene.lights.size(), 2u);
         const glm::dvec3 forward = scene.camera.target - scene.camera.eye;
         const glm::dvec3 right = glm::cross(forward, scene.camera.up);
         const auto centre_of = [&](const RectangleLight &box) {
             return box.corner + 0.5 * (box.edge_u + box.edge_v) - scene.camera.target;
         };
-        const RectangleLight &key = scene.rectangles[0], &strip = scene.rectangles[1];
+        const auto &key = std::get<RectangleLight>(scene.lights[0]),
+                   &strip = std::get<RectangleLight>(scene.lights[1]);
         EXPECT_LT(glm::dot(centre_of(key), right), 0);
         EXPECT_GT(centre_of(key).y, 0);
         // The strip lights from the other side, much weaker.

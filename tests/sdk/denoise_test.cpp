@@ -69,7 +69,7 @@ struct TestFilm {
     static const Scene &with_groups(Scene &scene, int groups) {
         if (groups == 1) {
             scene.light_groups = {"all"};
-            scene.rectangles[0].group = {0};
+            std::get<RectangleLight>(scene.lights[0]).group = {0};
             scene.environment->group = {0};
         }
         return scene;

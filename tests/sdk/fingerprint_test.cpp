@@ -89,6 +89,13 @@ class Change {
         else
             std::visit([&](auto &kind) { visit(kind); }, specular);
     }
+    void visit(Light &light) {
+        if (here("of another kind"))
+            light =
+                std::holds_alternative<SunLight>(light) ? Light(DiskLight{}) : Light(SunLight{});
+        else
+            std::visit([&](auto &kind) { visit(kind); }, light);
+    }
     template <class T> void visit(std::vector<T> &values) {
         if (here("one more"))
             values.emplace_back();
@@ -131,7 +138,7 @@ class Change {
     bool in_picture_ = true, changed_in_picture_ = true;
 };
 
-// A scene that has everything: every kind of fabric, a picture of the environment.
+// A scene that has everything: every kind of fabric and light, a picture of the environment.
 Scene full_scene() {
     Scene scene = folded_satin(40, 40);
     scene.fabrics[0].colours.weft_tint = Spectrum::constant(0.5);
@@ -146,6 +153,9 @@ Scene full_scene() {
         scene.fabrics.push_back({.name = "cloth", .specular = specular});
     scene.environment->picture = Image::make(2, 1, {"L"});
     scene.environment->picture->data = {1, 2};
+    scene.lights.insert(
+        scene.lights.end(),
+        {DiskLight{}, SphereLight{}, PointLight{.full_angle = 0.2, .cone_angle = 0.5}, SunLight{}});
     scene.surfaces[1].uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     scene.textures = {{.width = 2, .height = 1, .channels = 1, .data = {10, 200}},
                       {.width = 2, .height = 1, .channels = 1, .data = {20, 100}}};

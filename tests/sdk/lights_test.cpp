@@ -96,11 +96,18 @@ Receiver random_receiver(std::mt19937 &random) {
     return {2.0f * vector(), glm::normalize(vector()), random() % 2 == 0};
 }
 
+LightTree tree_of(const std::vector<LightRectangle> &lights) {
+    std::vector<LightBounds> bounds;
+    for (const LightRectangle &light : lights)
+        bounds.push_back(light.bounds(static_cast<float>(light.highest_intensity())));
+    return LightTree(std::move(bounds));
+}
+
 TEST(LightTree, ChoosesWithItsProbabilities) {
     std::mt19937 random(4);
     for (const std::size_t count : {1u, 2u, 3u, 17u, 64u}) {
         const std::vector<LightRectangle> lights = random_lights(count, random);
-        const LightTree tree(lights);
+        const LightTree tree = tree_of(lights);
         for (int trial = 0; trial < 20; ++trial) {
             const Receiver receiver = random_receiver(random);
             std::vector<double> chosen(count);
@@ -121,7 +128,7 @@ TEST(LightTree, ChoosesWithItsProbabilities) {
 TEST(LightTree, ForgetsNoLight) {
     std::mt19937 random(5);
     const std::vector<LightRectangle> lights = random_lights(100, random);
-    const LightTree tree(lights);
+    const LightTree tree = tree_of(lights);
     int lit = 0;
     for (int trial = 0; trial < 200; ++trial) {
         const Receiver receiver = random_receiver(random);
@@ -142,7 +149,7 @@ TEST(LightTree, ForgetsNoLight) {
 TEST(LightTree, MeetsTheLightsThatARayCrosses) {
     std::mt19937 random(6);
     const std::vector<LightRectangle> lights = random_lights(300, random);
-    const LightTree tree(lights);
+    const LightTree tree = tree_of(lights);
     int crossings = 0;
     for (int trial = 0; trial < 5000; ++trial) {
         Receiver ray = random_receiver(random);

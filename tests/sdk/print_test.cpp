@@ -270,8 +270,8 @@ Scene sheet_with_holes(Texture picture) {
     scene.opacities = {{.picture = {0}}};
     scene.objects = {{"sheet", {0}, {0}}, {"floor", {1}, {1}}};
     scene.objects[0].opacity = OpacityIndex{0};
-    scene.rectangles = {
-        {.corner = {-0.5, 2, -0.5}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = 5}};
+    scene.lights = {RectangleLight{
+        .corner = {-0.5, 2, -0.5}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = 5}};
     scene.camera = {
         .eye = {0, 0.5, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .width = 8, .height = 8};
     return scene;
@@ -302,7 +302,7 @@ TEST(Opacity, LightIsWeakenedByWhatLiesOnItsWay) {
 TEST(Opacity, TheCameraSeesThroughHoles) {
     const auto seen = [](std::uint8_t cover) {
         Scene scene = sheet_with_holes(plain({cover, 0, 0, 0}, 1));
-        scene.rectangles.clear();
+        scene.lights.clear();
         scene.environment = Environment{.radiance = 1, .visible = true};
         scene.surfaces.pop_back(); // no floor: black cloth before a bright sky
         scene.objects.pop_back();
@@ -331,7 +331,7 @@ TEST(Opacity, WhiteLaceIsNotSeenInAFurnace) {
     Scene scene = sheet_with_holes(chequers(8, 8));
     scene.textures[0].channels = 1;
     scene.textures[0].data.resize(64);
-    scene.rectangles.clear();
+    scene.lights.clear();
     scene.environment = Environment{.radiance = 1};
     scene.fabrics = {lambert(1), lambert(1)};
     scene.camera.eye = {0.3, 4, 0.2};

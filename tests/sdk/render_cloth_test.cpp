@@ -62,10 +62,10 @@ Scene lit_sheet(const Fabric &fabric, bool from_behind) {
     scene.surfaces = {floor_square(20)};
     scene.fabrics = {fabric};
     scene.objects = {{"sheet", {0}, {0}}};
-    scene.rectangles = {
-        {.corner = {0.2, 1.5, 0.1}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = 5}};
+    scene.lights = {RectangleLight{
+        .corner = {0.2, 1.5, 0.1}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = 5}};
     if (from_behind) {
-        RectangleLight &light = scene.rectangles[0];
+        RectangleLight &light = std::get<RectangleLight>(scene.lights[0]);
         light.corner.y = -light.corner.y;
         std::swap(light.edge_u, light.edge_v);
     }
@@ -92,7 +92,7 @@ TEST(ThinCloth, LambertianToBothSides) {
 // The camera sees light through the sheet that the sheet's own sampling found.
 TEST(ThinCloth, EnvironmentIsSeenThroughIt) {
     Scene scene = lit_sheet(thin(lambert(0.2), 0.5), false);
-    scene.rectangles.clear();
+    scene.lights.clear();
     scene.environment = Environment{.radiance = 2};
     EXPECT_NEAR(*render(scene, quick(256)).image.pixel(0, 2, 2), 1.4, 1e-3);
 }
@@ -122,9 +122,9 @@ TEST(ShotCloth, ColourTurnsWithTheCloth) {
     const auto weft_share = [](bool turned) {
         const auto value = [&](double weft, double warp) {
             Scene scene = shot_sheet(weft, warp);
-            scene.rectangles[0].corner = {0.8, 1.5, -0.1};
-            scene.rectangles[0].edge_u = {0.2, 0, 0};
-            scene.rectangles[0].edge_v = {0, 0, 0.2};
+            std::get<RectangleLight>(scene.lights[0]).corner = {0.8, 1.5, -0.1};
+            std::get<RectangleLight>(scene.lights[0]).edge_u = {0.2, 0, 0};
+            std::get<RectangleLight>(scene.lights[0]).edge_v = {0, 0, 0.2};
             scene.camera.eye = {0, 1.2, 0.01};
             if (turned) // warp along x
                 scene.surfaces[0].warp.assign(4, {1, 0, 0});

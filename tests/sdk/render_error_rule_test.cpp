@@ -20,8 +20,8 @@ TEST(Promises, ErrorRuleDoesNotDependOnTheStrengthOfTheLights) {
     settings.stop.relative_error = 0.02;
     const RenderResult bright = render(scene, settings);
     constexpr float kDim = 1.0f / 128;
-    for (RectangleLight &light : scene.rectangles)
-        light.radiance *= kDim;
+    for (Light &light : scene.lights)
+        emission_of(light) *= kDim;
     if (scene.environment)
         scene.environment->radiance *= kDim;
     const RenderResult dim = render(scene, settings);

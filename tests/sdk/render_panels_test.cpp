@@ -16,8 +16,8 @@ Scene two_panels() {
     scene.surfaces[0].panel = {0, 1};
     scene.fabrics = {satin(0.4), lambert(0.7), lambert(0.1)};
     scene.objects = {{"sheet", {0}, {0}}};
-    scene.rectangles = {
-        {.corner = {0.2, 1.5, 0.1}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = 5}};
+    scene.lights = {RectangleLight{
+        .corner = {0.2, 1.5, 0.1}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = 5}};
     scene.environment = Environment{.radiance = 0.2};
     scene.camera = {.eye = {0, 2, 1}, .target = {0, 0, 0}, .width = 16, .height = 16};
     return scene;
@@ -44,7 +44,7 @@ TEST(PanelFabrics, ArePaintedAsObjectsOfTheirOwn) {
 Scene from_below(Scene scene) {
     scene.camera.eye.y = -scene.camera.eye.y;
     scene.camera.eye.x = 0.3;
-    RectangleLight &light = scene.rectangles[0];
+    RectangleLight &light = std::get<RectangleLight>(scene.lights[0]);
     light.corner.y = -light.corner.y;
     std::swap(light.edge_u, light.edge_v);
     return scene;

@@ -17,7 +17,8 @@ tsuya::RenderResult portrait(const tsuya::Surface &dress, const tsuya::Reflectan
     scene.surfaces = {dress};
     scene.fabrics = {satin};
     scene.objects = {{.name = "dress", .surface = {0}, .fabric = {0}}};
-    scene.rectangles = {{.corner = {-1, 1, 3}, .edge_u = {-1, 0, -1}, .edge_v = {0, 1, 0}}};
+    scene.lights = {
+        tsuya::RectangleLight{.corner = {-1, 1, 3}, .edge_u = {-1, 0, -1}, .edge_v = {0, 1, 0}}};
     scene.camera = {.eye = {0, 1, 4}, .target = {0, 1, 0}, .width = 40, .height = 50};
     return tsuya::render(scene, {.stop = {.samples_per_pixel = 16}, .channels = 8});
 }

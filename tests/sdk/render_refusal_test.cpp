@@ -40,8 +40,9 @@ TEST(Errors, SceneAndSettings) {
     scene.surfaces[1].triangle[0].x = 77;
     EXPECT_EQ(where(scene, quick(1)), "surfaces[1]");
     scene = good;
-    scene.rectangles[0].edge_v = scene.rectangles[0].edge_u;
-    EXPECT_EQ(where(scene, quick(1)), "rectangles[0]");
+    std::get<RectangleLight>(scene.lights[0]).edge_v =
+        std::get<RectangleLight>(scene.lights[0]).edge_u;
+    EXPECT_EQ(where(scene, quick(1)), "lights[0]");
     scene = good;
     scene.camera.up = scene.camera.target - scene.camera.eye;
     EXPECT_EQ(where(scene, quick(1)), "camera");
@@ -93,8 +94,8 @@ TEST(Errors, RadiancesThatOverflow) {
     const Scene good = folded_satin(8, 8);
     for (const double radiance : {1e300, 2e12, -1.0, std::nan(""), HUGE_VAL}) {
         Scene scene = good;
-        scene.rectangles[0].radiance = radiance;
-        EXPECT_EQ(only_problem(scene), "rectangles[0].radiance");
+        emission_of(scene.lights[0]) = radiance;
+        EXPECT_EQ(only_problem(scene), "lights[0].radiance");
         scene = good;
         scene.environment->radiance = radiance;
         EXPECT_EQ(only_problem(scene), "environment.radiance");
@@ -108,7 +109,7 @@ TEST(Errors, RadiancesThatOverflow) {
 
 TEST(Errors, TheLargestRadianceGivesAFinitePicture) {
     Scene scene = folded_satin(16, 16);
-    scene.rectangles[0].radiance = scene.environment->radiance = kLargestRadiance;
+    emission_of(scene.lights[0]) = scene.environment->radiance = kLargestRadiance;
     const RenderResult result = render(scene, quick(64));
     EXPECT_EQ(result.stats.not_finite, 0u);
     EXPECT_TRUE(std::isfinite(result.stats.relative_error));
@@ -127,10 +128,10 @@ TEST(Errors, OneProblemForOneCause) {
     scene.light_groups.clear();
     EXPECT_EQ(only_where(scene), "light_groups");
     scene = good;
-    scene.rectangles[0].corner.x = std::nan("");
-    EXPECT_EQ(only_where(scene), "rectangles[0]");
-    scene.rectangles[0] = {.edge_u = {1e-9, 0, 0}, .edge_v = {0, 1e-9, 0}};
-    EXPECT_EQ(only_where(scene), "rectangles[0]");
+    std::get<RectangleLight>(scene.lights[0]).corner.x = std::nan("");
+    EXPECT_EQ(only_where(scene), "lights[0]");
+    scene.lights[0] = RectangleLight{.edge_u = {1e-9, 0, 0}, .edge_v = {0, 1e-9, 0}};
+    EXPECT_EQ(only_where(scene), "lights[0]");
     scene = good;
     scene.camera.eye.z = 1e30;
     EXPECT_EQ(only_where(scene), "camera");

@@ -14,7 +14,8 @@ Scene scaled(Scene scene, double scale) {
     for (Surface &surface : scene.surfaces)
         for (glm::dvec3 &p : surface.position)
             p *= scale;
-    for (RectangleLight &light : scene.rectangles) {
+    for (Light &any : scene.lights) {
+        auto &light = std::get<RectangleLight>(any);
         light.corner *= scale;
         light.edge_u *= scale;
         light.edge_v *= scale;

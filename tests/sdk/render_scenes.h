@@ -94,11 +94,11 @@ inline Scene folded_satin(int width, int height) {
     scene.fabrics = {satin(0.4), lambert(0.5)};
     scene.objects = {{"sheet", {0}, {0}}, {"floor", {1}, {1}}};
     scene.light_groups = {"key", "fill"};
-    scene.rectangles = {{.corner = {-1.7, 1, 2.8},
-                         .edge_u = {-0.8, 0, -0.8},
-                         .edge_v = {0, 1, 0},
-                         .radiance = 8,
-                         .group = {0}}};
+    scene.lights = {RectangleLight{.corner = {-1.7, 1, 2.8},
+                                   .edge_u = {-0.8, 0, -0.8},
+                                   .edge_v = {0, 1, 0},
+                                   .radiance = 8,
+                                   .group = {0}}};
     scene.environment = Environment{.radiance = 0.3, .group = {1}};
     scene.camera = {.eye = {0.3, 1.3, 4.5},
                     .target = {0, 1, 0},

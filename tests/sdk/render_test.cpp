@@ -36,7 +36,7 @@ TEST(Furnace, WhiteFoldsAreInvisible) {
     Scene scene = folded_satin(20, 20);
     scene.fabrics[0] = lambert(1);
     scene.fabrics[1] = lambert(1);
-    scene.rectangles.clear();
+    scene.lights.clear();
     scene.light_groups = {"key"};
     scene.environment = Environment{.radiance = 1};
     RenderSettings settings = quick(16);
@@ -58,10 +58,10 @@ TEST(ClosedForm, PlaneBelowRectangle) {
     scene.surfaces = {floor_square(20)};
     scene.fabrics = {lambert(kAlbedo)};
     scene.objects = {{"floor", {0}, {0}}};
-    scene.rectangles = {{.corner = {-kHalf, kHeight, -kHalf},
-                         .edge_u = {2 * kHalf, 0, 0},
-                         .edge_v = {0, 0, 2 * kHalf},
-                         .radiance = kRadiance}};
+    scene.lights = {RectangleLight{.corner = {-kHalf, kHeight, -kHalf},
+                                   .edge_u = {2 * kHalf, 0, 0},
+                                   .edge_v = {0, 0, 2 * kHalf},
+                                   .radiance = kRadiance}};
     scene.camera = {.eye = {0, 1.2, 0},
                     .target = {0, 0, 0},
                     .up = {0, 0, -1},
@@ -75,7 +75,8 @@ TEST(ClosedForm, PlaneBelowRectangle) {
     EXPECT_LT(largest_difference(result.image, 0, expected), 2e-3 * expected);
 
     // The picture sees only the light's other side: dark
-    std::swap(scene.rectangles[0].edge_u, scene.rectangles[0].edge_v);
+    RectangleLight &light = std::get<RectangleLight>(scene.lights[0]);
+    std::swap(light.edge_u, light.edge_v);
     EXPECT_EQ(largest_difference(render(scene, quick(4)).image, 0, 0.0), 0.0);
 }
 
@@ -84,7 +85,7 @@ TEST(ClosedForm, PlaneBelowRectangle) {
 TEST(ClosedForm, ManyLightsAreOne) {
     Scene scene = folded_satin(16, 16);
     scene.environment.reset();
-    const RectangleLight whole = scene.rectangles[0];
+    const RectangleLight whole = std::get<RectangleLight>(scene.lights[0]);
     const auto totals = [&](const RenderSettings &settings) {
         const SpectralImage image = render(scene, settings).image;
         std::vector<double> rows(16);
@@ -96,16 +97,16 @@ TEST(ClosedForm, ManyLightsAreOne) {
     for (const int bounces : {0, 4}) {
         RenderSettings settings = quick(1024);
         settings.max_bounces = bounces;
-        scene.rectangles = {whole};
+        scene.lights = {whole};
         const std::vector<double> one = totals(settings);
         constexpr int kParts = 5;
-        scene.rectangles.clear();
+        scene.lights.clear();
         for (int i = 0; i < kParts * kParts; ++i) {
             RectangleLight part = whole;
             part.edge_u /= kParts;
             part.edge_v /= kParts;
             part.corner += double(i % kParts) * part.edge_u + double(i / kParts) * part.edge_v;
-            scene.rectangles.push_back(part);
+            scene.lights.push_back(part);
         }
         const std::vector<double> many = totals(settings);
         for (std::size_t y = 0; y < one.size(); ++y)
@@ -194,7 +195,7 @@ TEST(Promises, CheckpointOfAnotherSceneIsRefused) {
             .stop = &stop});
     settings.resume = true;
     Scene brighter = folded_satin(70, 50), other_yarn = brighter, tinted = brighter;
-    brighter.rectangles[0].radiance = 9;
+    emission_of(brighter.lights[0]) = 9;
     other_yarn.fabrics[0].specular = YarnLobes{};
     tinted.fabrics[0].colours.weft_tint = Spectrum::constant(0.5);
     for (const Scene &other : {brighter, other_yarn, tinted})
@@ -211,7 +212,7 @@ TEST(Promises, SkippingChangesNothing) {
     Scene scene = folded_satin(40, 40);
     scene.fabrics.push_back(satin(0.2)); // dresses nothing
     scene.fabrics[1].colours.specular_tint = Spectrum::constant(0);
-    scene.rectangles.push_back({.corner = {0, 3, 0}, .radiance = 0});
+    scene.lights.push_back(RectangleLight{.corner = {0, 3, 0}, .radiance = 0});
     RenderSettings settings = quick(8);
     const SpectralImage lean = render(scene, settings).image;
     EXPECT_GE(plan(scene, settings).skips.size(), 4u);

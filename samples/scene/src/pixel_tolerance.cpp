@@ -35,11 +35,12 @@ garment::ViewTolerance view_of(const Scene &scene, const std::vector<glm::dvec3>
     }
     view.camera.eye -= translate;
     view.camera.target -= translate;
-    for (const RectangleLight &light : scene.rectangles)
-        view.lights.push_back(
-            {.centre = light.corner + 0.5 * (light.edge_u + light.edge_v) - translate,
-             .radius = 0.5 * glm::length(light.edge_u + light.edge_v)});
     view.light_from_everywhere = scene.environment && scene.environment->picture;
+    for (const Light &light : scene.lights)
+        if (const auto place = place_of(light))
+            view.lights.push_back({.centre = place->centre - translate, .radius = place->radius});
+        else
+            view.light_from_everywhere = true; // a sun
     return view;
 }
 

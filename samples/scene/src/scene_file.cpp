@@ -21,7 +21,7 @@ void add_object(Scene &scene, const std::string &name, Surface surface, Dressing
     scene.objects.push_back(std::move(dressing).object(name, {index}));
 }
 
-/// Where the file has the parts of its scene: `a.scene.toml:9:1: lights.key` for `rectangles[0]`.
+/// Where the file has the parts of its scene: `a.scene.toml:9:1: lights.key` for `lights[0]`.
 std::map<std::string, std::string> places_of(const SceneFile &file) {
     std::map<std::string, std::string> places;
     std::size_t objects = 0;
@@ -37,8 +37,8 @@ std::map<std::string, std::string> places_of(const SceneFile &file) {
     if (file.backdrop)
         object(file.backdrop->where, "backdrop");
     for (std::size_t i = 0; i < file.light_places.size(); ++i)
-        places["rectangles[" + std::to_string(i) + "]"] =
-            file.light_places[i] + ": lights." + file.lights[i].name;
+        places["lights[" + std::to_string(i) + "]"] =
+            file.light_places[i] + ": lights." + name_of(file.lights[i]);
     return places;
 }
 
@@ -207,7 +207,7 @@ struct SceneBuilder {
     void add_camera_and_lights() {
         Scene &scene = built.scene;
         scene.light_groups = file.light_groups;
-        scene.rectangles = file.lights;
+        scene.lights = file.lights;
         scene.environment = file.environment;
         scene.camera = file.camera ? *file.camera : frame_points(meshes.points(), file.framing);
         if (file.focus && scene.camera.lens)

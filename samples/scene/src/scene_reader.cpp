@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "tsuya/color/image_file.h"
-#include "tsuya/color/lamp.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
-#include "tsuya/sdk/light_group.h"
 
 namespace tsuya::scene {
 std::filesystem::path SceneReader::existing_file(const Section &section, std::string_view key,
@@ -24,23 +21,13 @@ std::filesystem::path SceneReader::existing_file(const Section &section, std::st
     return path;
 }
 
-LightGroupIndex SceneReader::group(const Section &section, const std::string &otherwise) {
-    const std::string name = section.text("group").value_or(otherwise);
-    auto &groups = file_.light_groups;
-    note(section, "group", [&] { check_light_group(name, "group"); });
-    const auto found = std::find(groups.begin(), groups.end(), name);
-    const auto index = static_cast<std::uint32_t>(found - groups.begin());
-    if (found == groups.end())
-        groups.push_back(name);
-    return {index};
-}
-
 void SceneReader::read() {
     read_camera();
     read_fabrics();
     read_meshes("garments", true, file_.garments);
     read_meshes("bodies", false, file_.bodies);
     read_backdrop();
+    read_units();
     read_lights();
     read_environment();
     read_render();
@@ -80,49 +67,6 @@ void SceneReader::read_backdrop() {
         section->problem(section->has("radius") ? "radius" : "back", "the bend does not fit",
                          "expected back and height above the radius");
     file_.backdrop = std::move(entry);
-}
-
-void SceneReader::read_lights() {
-    if (const auto lights = root_.section("lights"))
-        for (const auto &[name, section] : lights->sections()) {
-            names_light_ = true;
-            read_light(name, section);
-        }
-}
-
-void SceneReader::read_light(const std::string &name, const Section &section) {
-    if (!section.has("centre"))
-        section.problem("centre", "'centre' is missing", "expected such as [-2, 2.5, 2]");
-    const Softbox standard;
-    const Softbox box{.centre = section.vector("centre").value_or(standard.centre),
-                      .target = section.vector("target").value_or(standard.target),
-                      .up = section.vector("up").value_or(standard.up),
-                      .width = section.number("width", kSmallest, kLargest).value_or(1),
-                      .height = section.number("height", kSmallest, kLargest).value_or(1),
-                      .strength = section.number("strength", 0, kLargest).value_or(1),
-                      .group = group(section, name)};
-    const auto radiance = section.number("radiance", 0, kLargest);
-    if (radiance && section.has("strength"))
-        section.problem("radiance", "radiance and strength are both given", "expected one of them");
-    note(section, "centre", [&] {
-        file_.lights.push_back(make_light(box));
-        file_.lights.back().name = name;
-        file_.light_places.push_back(section.where());
-        if (radiance)
-            file_.lights.back().radiance = *radiance;
-    });
-}
-
-void SceneReader::read_environment() {
-    const auto section = root_.section("environment");
-    if (!section)
-        return;
-    Environment &environment = file_.environment.emplace(
-        Environment{.radiance = section->number("radiance", 0, kLargest).value_or(1),
-                    .group = group(*section, "environment"),
-                    .visible = section->flag("visible").value_or(true)});
-    if (const auto picture = existing_file(*section, "picture", false); !picture.empty())
-        note(*section, "picture", [&] { environment.picture = read_image(picture); });
 }
 
 void SceneReader::read_render() {

@@ -18,7 +18,7 @@ inline constexpr double kLargest = 1e6;   // metres, radiance, ...
 inline constexpr double kSmallest = 1e-6; // of what has to be above 0
 
 // Member functions stand in scene_reader.cpp, the camera in camera_section.cpp, fabrics and pictures
-// in cloth_sections.cpp, meshes in mesh_sections.cpp.
+// in cloth_sections.cpp, meshes in mesh_sections.cpp, lights in light_sections.cpp.
 
 class SceneReader {
   public:
@@ -44,8 +44,21 @@ class SceneReader {
     void read_cloth(const Section &section, MeshEntry &entry);
     void read_grain(const Section &grain, MeshEntry &entry);
     void read_backdrop();
+    void read_units();
     void read_lights();
     void read_light(const std::string &name, const Section &section);
+    RectangleLight read_rectangle(const Section &section, const glm::dvec3 &target);
+    DiskLight read_disk(const Section &section, const glm::dvec3 &target);
+    SphereLight read_sphere(const Section &section);
+    PointLight read_point(const Section &section);
+    PointLight read_spot(const Section &section, const glm::dvec3 &target);
+    SunLight read_sun(const Section &section);
+    LightBehaviour read_behaviour(const Section &section);
+    // Scales a light to what its section says of its strength, in one of several units.
+    void read_strength(const Section &section, const glm::dvec3 &target, Light &light);
+    glm::dvec3 centre_of(const Section &section);
+    // From the centre of a light to its target.
+    static glm::dvec3 facing(const glm::dvec3 &centre, const glm::dvec3 &target);
     void read_environment();
     void read_render();
     void read_output();
@@ -81,6 +94,7 @@ class SceneReader {
     SceneFile &file_;
     const Progress &progress_;
     bool names_light_ = false;
+    double white_lux_ = 1000;
 };
 
 } // namespace tsuya::scene

@@ -1,7 +1,6 @@
 #include "tsuya/scene/studio.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -135,22 +134,6 @@ Surface make_cyclorama(const Cyclorama &c) {
         surface.triangle.emplace_back(i, i + 3, i + 2);
     }
     return surface;
-}
-
-double irradiance(const RectangleLight &light, const glm::dvec3 &point, const glm::dvec3 &normal) {
-    const std::array<glm::dvec3, 4> corners{light.corner, light.corner + light.edge_u,
-                                            light.corner + light.edge_u + light.edge_v,
-                                            light.corner + light.edge_v};
-    glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < 4; ++i) {
-        const glm::dvec3 a = glm::normalize(corners[i] - point);
-        const glm::dvec3 b = glm::normalize(corners[(i + 1) % 4] - point);
-        const glm::dvec3 across = glm::cross(a, b);
-        const double sine = glm::length(across);
-        if (sine > 0)
-            sum += std::atan2(sine, glm::dot(a, b)) / sine * across;
-    }
-    return 0.5 * light.radiance * std::abs(glm::dot(sum, normal));
 }
 
 RectangleLight make_light(const Softbox &box) {

@@ -130,7 +130,7 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
     const double size = std::max(glm::length(bounds.upper - bounds.lower), 1e-3);
     scene.light_groups = {"key", "fill"};
     for (const StudioLight &box : kStudioLights) {
-        scene.rectangles.push_back(
+        scene.lights.push_back(
             make_light({.centre = middle + box.distance * size *
                                                direction_of(azimuth + box.azimuth, box.elevation),
                         .target = middle,
@@ -138,7 +138,7 @@ void light(Scene &scene, const Bounds &bounds, double azimuth) {
                         .height = box.height * size,
                         .strength = box.strength,
                         .group = {0}}));
-        scene.rectangles.back().name = box.name;
+        std::get<RectangleLight>(scene.lights.back()).name = box.name;
     }
     scene.environment = Environment{.radiance = kFillRadiance, .group = {1}, .visible = true};
     add_object(scene, "backdrop",

@@ -20,7 +20,7 @@ constexpr double kRightAngle = 1e-6;
 
 LightRectangle::LightRectangle(const RectangleLight &light, const glm::dvec3 &centre)
     : corner_(light.corner - centre), edge_u_(light.edge_u), edge_v_(light.edge_v),
-      radiance_(static_cast<float>(light.radiance)), group_(light.group.value) {
+      radiance_(static_cast<float>(light.radiance)) {
     const glm::dvec3 across = glm::cross(light.edge_u, light.edge_v);
     const double width = glm::length(light.edge_u), height = glm::length(light.edge_v);
     normal_ = glm::normalize(across);
@@ -32,6 +32,16 @@ LightRectangle::LightRectangle(const RectangleLight &light, const glm::dvec3 &ce
     height_ = static_cast<float>(height);
     area_ = static_cast<float>(glm::length(across));
     right_angled_ = std::abs(glm::dot(light.edge_u, light.edge_v)) < kRightAngle * width * height;
+}
+
+LightBounds LightRectangle::bounds(float power) const {
+    glm::vec3 low = corner_, high = corner_;
+    for (const glm::vec3 &corner :
+         {corner_ + edge_u_, corner_ + edge_v_, corner_ + edge_u_ + edge_v_}) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    return {low, high, {.axis = normal_}, power};
 }
 
 LightRectangle::Seen LightRectangle::seen(const glm::vec3 &from) const {
@@ -86,8 +96,7 @@ std::optional<LightRay> LightRectangle::sample(const glm::vec3 &from, glm::vec2 
     const float distance = glm::length(offset);
     const glm::vec3 to_light = offset / distance;
     return LightRay{to_light, distance, radiance_,
-                    angle > 0 ? 1 / angle : distance * distance * distance / (s.height * area_),
-                    group_};
+                    angle > 0 ? 1 / angle : distance * distance * distance / (s.height * area_)};
 }
 
 float LightRectangle::pdf(const glm::vec3 &from, const glm::vec3 &direction, float distance) const {

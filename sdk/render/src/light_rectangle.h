@@ -5,17 +5,11 @@
 
 #include <glm/glm.hpp>
 
-#include "tsuya/sdk/scene.h"
+#include "light_bounds.h"
+#include "light_ray.h"
+#include "tsuya/sdk/light.h"
 
 namespace tsuya {
-
-struct LightRay {
-    glm::vec3 to_light;
-    float distance; // infinite for the environment
-    float radiance;
-    float pdf; // 1/sr
-    std::uint32_t group;
-};
 
 // Sampled evenly over its solid angle where that is large and its sides are at right angles, else
 // evenly over its area.
@@ -25,13 +19,11 @@ class LightRectangle {
     LightRectangle(const RectangleLight &light, const glm::dvec3 &centre);
 
     float radiance() const { return radiance_; }
-    float area() const { return area_; }
-    std::uint32_t group() const { return group_; }
-    // The side that shines.
-    const glm::vec3 &normal() const { return normal_; }
-    glm::vec3 corner(int i) const {
-        return corner_ + (i & 1 ? edge_u_ : glm::vec3{0}) + (i & 2 ? edge_v_ : glm::vec3{0});
+    double highest_intensity() const {
+        return static_cast<double>(radiance_) * static_cast<double>(area_);
     }
+    // \param power see LightBounds
+    LightBounds bounds(float power) const;
 
     std::optional<LightRay> sample(const glm::vec3 &from, glm::vec2 u) const;
     // Distance at which a ray crosses the rectangle from its front.
@@ -48,6 +40,17 @@ class LightRectangle {
         if (a >= 0 && a <= 1 && b >= 0 && b <= 1)
             return t;
         return std::nullopt;
+    }
+    // Distance at which a ray crosses it from either side.
+    std::optional<float> obstacle(const glm::vec3 &from, const glm::vec3 &direction) const {
+        const float facing = -glm::dot(direction, normal_);
+        const glm::vec3 offset = corner_ - from;
+        const float t = -glm::dot(offset, normal_) / facing;
+        if (!(t > 0))
+            return std::nullopt;
+        const glm::vec3 p = t * direction - offset;
+        const float a = glm::dot(p, dual_u_), b = glm::dot(p, dual_v_);
+        return a >= 0 && a <= 1 && b >= 0 && b <= 1 ? std::optional(t) : std::nullopt;
     }
     // What `sample` has, 1/sr, for a direction that crosses the rectangle at a distance.
     float pdf(const glm::vec3 &from, const glm::vec3 &direction, float distance) const;
@@ -68,7 +71,6 @@ class LightRectangle {
     glm::vec3 side_x_, side_y_; // unit vectors along the edges
     float width_, height_, area_, radiance_;
     bool right_angled_;
-    std::uint32_t group_;
 };
 
 } // namespace tsuya

@@ -3,80 +3,40 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "tsuya/sdk/angle.h"
 
 namespace tsuya {
 namespace {
 
 constexpr float kBelowOne = 0x1.fffffep-1f;
 
-// Cosine of max(0, a - b), of angles up to pi, by their sines and cosines.
-float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-    return cos_a > cos_b ? 1.0f : cos_a * cos_b + sin_a * sin_b;
-}
-float sin_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-    return cos_a > cos_b ? 0.0f : sin_a * cos_b - cos_a * sin_b;
-}
-float sine_of(float cosine) { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
-
-LightBounds bounds_of(const LightRectangle &light) {
-    glm::vec3 low = light.corner(0), high = low;
-    for (int i = 1; i < 4; ++i) {
-        low = glm::min(low, light.corner(i));
-        high = glm::max(high, light.corner(i));
-    }
-    return {low, high, light.normal(), 1, light.radiance() * light.area()};
+// Cosine of how far the directions of `of` are from an axis at most.
+float cos_farthest(const glm::vec3 &axis, const LightBounds &of) {
+    const float to_axis = glm::dot(axis, of.axis());
+    if (of.cos_spread() >= 1)
+        return to_axis;
+    const float angle = std::acos(std::clamp(to_axis, -1.0f, 1.0f)) + std::acos(of.cos_spread());
+    return angle < kPiF ? std::cos(angle) : -1.0f;
 }
 
 } // namespace
-
-LightBounds::LightBounds(const glm::vec3 &low, const glm::vec3 &high, const glm::vec3 &axis,
-                         float cos_spread, float power)
-    : low_(low), high_(high), axis_(axis), middle_(0.5f * (low + high)),
-      radius2_(0.25f * glm::dot(high - low, high - low)), cos_spread_(cos_spread),
-      sin_spread_(sine_of(cos_spread)), power_(power) {}
-
-// [Conty] Eq. 3, with the bounding sphere of the box.
-float LightBounds::importance(const Receiver &receiver) const {
-    const glm::vec3 offset = middle_ - receiver.position;
-    const float distance2 = glm::dot(offset, offset);
-    if (distance2 <= radius2_)
-        return power_ / radius2_;
-    const float per_distance2 = 1 / distance2;
-    const glm::vec3 to_light = offset * std::sqrt(per_distance2);
-    const float sin2_seen = radius2_ * per_distance2;
-    const float sin_seen = std::sqrt(sin2_seen), cos_seen = std::sqrt(1 - sin2_seen);
-
-    // The least angle between where they shine and the point
-    const float cos_axis = -glm::dot(axis_, to_light), sin_axis = sine_of(cos_axis);
-    const float cos_outside = cos_of_difference(sin_axis, cos_axis, sin_spread_, cos_spread_);
-    const float sin_outside = sin_of_difference(sin_axis, cos_axis, sin_spread_, cos_spread_);
-    const float cos_emitted = cos_of_difference(sin_outside, cos_outside, sin_seen, cos_seen);
-    if (!(cos_emitted > 0))
-        return 0;
-
-    float cos_received = glm::dot(receiver.normal, to_light);
-    if (receiver.both_sides)
-        cos_received = std::abs(cos_received);
-    cos_received = cos_of_difference(sine_of(cos_received), cos_received, sin_seen, cos_seen);
-    return power_ * cos_emitted * std::max(0.0f, cos_received) * per_distance2;
-}
 
 struct LightTree::Building {
     std::vector<LightBounds> lights{};
     std::vector<std::uint32_t> order{};
 };
 
-LightTree::LightTree(const std::vector<LightRectangle> &lights) {
+LightTree::LightTree(std::vector<LightBounds> lights) {
     if (lights.empty())
         return;
-    Building building;
-    for (const LightRectangle &light : lights)
-        building.lights.push_back(bounds_of(light));
-    building.order.resize(lights.size());
+    Building building{.lights = std::move(lights)};
+    building.order.resize(building.lights.size());
     std::iota(building.order.begin(), building.order.end(), 0u);
-    build(building, 0, lights.size());
-    place_.resize(lights.size());
-    for (std::uint32_t i = 0; i < lights.size(); ++i)
+    build(building, 0, building.lights.size());
+    place_.resize(building.lights.size());
+    for (std::uint32_t i = 0; i < place_.size(); ++i)
         place_[building.order[i]] = i;
 }
 
@@ -106,9 +66,11 @@ void LightTree::build(Building &building, std::size_t first, std::size_t last) {
     }
     const float length = glm::length(axis);
     axis = length > 0 ? axis / length : glm::vec3(0, 0, 1);
-    float cos_spread = 1;
-    for (auto i = begin; i != end; ++i)
-        cos_spread = std::clamp(glm::dot(axis, of(*i).axis()), -1.0f, cos_spread);
+    float cos_spread = 1, cos_reach = 1;
+    for (auto i = begin; i != end; ++i) {
+        cos_spread = std::clamp(cos_farthest(axis, of(*i)), -1.0f, cos_spread);
+        cos_reach = std::min(cos_reach, of(*i).cos_reach());
+    }
 
     const glm::vec3 size = high - low;
     const int side = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
@@ -121,7 +83,7 @@ void LightTree::build(Building &building, std::size_t first, std::size_t last) {
     build(building, first, half);
     const auto second = static_cast<std::uint32_t>(nodes_.size());
     build(building, half, last);
-    nodes_[index] = {{box_low, box_high, axis, cos_spread, power}, second, 0};
+    nodes_[index] = {{box_low, box_high, {axis, cos_spread, cos_reach}, power}, second, 0};
 }
 
 std::optional<float> LightTree::first_share(std::uint32_t node, const Receiver &receiver) const {

@@ -4,44 +4,13 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "light_rectangle.h"
+#include "light_bounds.h"
 
 namespace tsuya {
-
-// A point that receives light.
-struct Receiver {
-    glm::vec3 position, normal;
-    bool both_sides; // light from behind counts too
-};
-
-// Where some lights are, and where they shine to: up to a right angle from some direction within a
-// cone.
-class LightBounds {
-  public:
-    LightBounds() = default;
-    // \param axis of the cone
-    // \param cos_spread cosine of its half angle
-    LightBounds(const glm::vec3 &low, const glm::vec3 &high, const glm::vec3 &axis,
-                float cos_spread, float power);
-
-    const glm::vec3 &low() const { return low_; }
-    const glm::vec3 &high() const { return high_; }
-    const glm::vec3 &axis() const { return axis_; }
-    float power() const { return power_; }
-    // What they may give to a point at most, but for a factor that all lights share: 0 where they
-    // certainly give nothing.
-    float importance(const Receiver &receiver) const;
-
-  private:
-    glm::vec3 low_{}, high_{}, axis_{};
-    glm::vec3 middle_{}; // of the box, and of the sphere around it
-    float radius2_ = 0, cos_spread_ = 1, sin_spread_ = 0, power_ = 0;
-};
 
 struct ChosenLight {
     std::size_t light;
@@ -51,7 +20,7 @@ struct ChosenLight {
 class LightTree {
   public:
     LightTree() = default;
-    explicit LightTree(const std::vector<LightRectangle> &lights);
+    explicit LightTree(std::vector<LightBounds> lights);
 
     // None where no light can give anything. \param u in [0, 1)
     std::optional<ChosenLight> choose(const Receiver &receiver, float u) const;

@@ -9,26 +9,91 @@
 
 namespace tsuya {
 namespace {
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kBelowOne = 0x1.fffffep-1f;
+
+// The share of the tree and of distant lights: half in proportion, half even.
+constexpr double kEvenShare = 0.25;
+
+// What a light is, of any kind.
+template <class L> LightBehaviour behaviour_of(const L &light) {
+    if constexpr (requires { light.behaviour; })
+        return light.behaviour;
+    else if constexpr (requires { light.visible; })
+        return {.visible = light.visible, .shadows = light.shadows};
+    else
+        return {.shadows = light.shadows};
+}
+
+double highest_intensity(const auto &light) {
+    return std::visit([](const auto &l) { return l.highest_intensity(); }, light);
+}
+
+// Powers of lights as numbers up to 2: what they are to each other counts, and very weak lights
+// are no denormal numbers then.
+double power_scale(const auto &lights) {
+    double highest = 0;
+    for (const auto &light : lights)
+        highest = std::max(highest, highest_intensity(light));
+    return highest > 0 ? std::ldexp(1.0, -std::ilogb(highest)) : 1.0;
+}
+
 } // namespace
 
 Lights::Lights(const Scene &scene, const Plan &plan, const glm::dvec3 &centre,
                double scene_radius) {
-    double from_rectangles = 0; // irradiance in the middle of the scene
-    for (const std::size_t i : plan.lights) {
-        const RectangleLight &light = scene.rectangles[i];
-        const LightRectangle &r = rectangles_.emplace_back(light, centre);
-        const glm::dvec3 middle = light.corner + 0.5 * (light.edge_u + light.edge_v) - centre;
-        from_rectangles += light.radiance * r.area() /
-                           std::max(glm::dot(middle, middle), scene_radius * scene_radius * 0.01);
-    }
-    tree_ = LightTree(rectangles_);
-    if (!plan.environment)
-        return;
-    const Environment &environment = *scene.environment;
+    double from_near = 0; // irradiance in the middle of the scene
+    for (const std::size_t i : plan.lights)
+        if (const auto place = place_of(scene.lights[i])) {
+            add(scene.lights[i], centre);
+            const glm::dvec3 offset = place->centre - centre;
+            from_near += highest_intensity(near_.back()) /
+                         std::max(glm::dot(offset, offset), scene_radius * scene_radius * 0.01);
+        }
+    for (const std::size_t i : plan.lights)
+        if (!place_of(scene.lights[i]))
+            add(scene.lights[i], centre);
+    std::vector<LightBounds> bounds;
+    const double scale = power_scale(near_);
+    for (const Near &light : near_)
+        bounds.push_back(std::visit(
+            [&](const auto &l) {
+                return l.bounds(static_cast<float>(scale * l.highest_intensity()));
+            },
+            light));
+    tree_ = LightTree(std::move(bounds));
+    if (plan.environment)
+        add_environment(*scene.environment);
+    share_choices(from_near);
+}
+
+void Lights::add(const Light &light, const glm::dvec3 &centre) {
+    struct Make {
+        Lights &lights;
+        const glm::dvec3 &centre;
+        void operator()(const RectangleLight &l) {
+            lights.near_.emplace_back(LightRectangle(l, centre));
+        }
+        void operator()(const DiskLight &l) { lights.near_.emplace_back(LightDisk(l, centre)); }
+        void operator()(const SphereLight &l) { lights.near_.emplace_back(LightSphere(l, centre)); }
+        void operator()(const PointLight &l) { lights.near_.emplace_back(LightPoint(l, centre)); }
+        void operator()(const SunLight &l) { lights.suns_.emplace_back(l); }
+    };
+    std::visit(Make{*this, centre}, light);
+    std::visit(
+        [&](const auto &l) {
+            const auto [visible, blocks, shadows] = behaviour_of(l);
+            traits_.push_back({l.group.value, visible, blocks, shadows});
+            obstacles_ |= blocks;
+        },
+        light);
+    any_seen_ |= traits_.back().visible && near_.size() == traits_.size();
+}
+
+void Lights::add_environment(const Environment &environment) {
     environment_ = true;
-    environment_visible_ = environment.visible;
-    environment_group_ = environment.group.value;
+    traits_.push_back({environment.group.value, environment.visible, false, true});
     environment_scale_ = static_cast<float>(environment.radiance);
     if (!environment.picture)
         return;
@@ -40,38 +105,123 @@ Lights::Lights(const Scene &scene, const Plan &plan, const glm::dvec3 &centre,
             mass.push_back(picture_->pixel(x, y)[0] * sine);
     }
     environment_density_ = Distribution2D(mass, picture_->height, picture_->width);
-    const double from_environment = kPiF * environment.radiance *
-                                    std::accumulate(mass.begin(), mass.end(), 0.0) /
-                                    static_cast<double>(mass.size());
-    // Half in proportion, half even: either has a share, a dark one none
-    if (from_environment > 0)
-        environment_choice_ =
-            rectangles_.empty()
-                ? 1.0f
-                : static_cast<float>(0.5 * from_environment / (from_environment + from_rectangles) +
-                                     0.25);
+    environment_irradiance_ = kPiF * environment.radiance *
+                              std::accumulate(mass.begin(), mass.end(), 0.0) /
+                              static_cast<double>(mass.size());
+}
+
+void Lights::share_choices(double from_near) {
+    std::vector<double> distant;
+    for (const LightSun &sun : suns_)
+        distant.push_back(sun.irradiance());
+    if (picture_)
+        distant.push_back(environment_irradiance_);
+    const double all = std::accumulate(distant.begin(), distant.end(), 0.0);
+    // Either has a share, a dark one none
+    const double share =
+        !(all > 0) ? 0 : (near_.empty() ? 1 : 0.5 * all / (all + from_near) + kEvenShare);
+    for (const double one : distant)
+        distant_choice_.push_back(all > 0 ? static_cast<float>(share * (one < all ? one / all : 1))
+                                          : 0.0f);
 }
 
 std::optional<ChosenLight> Lights::choose(const Receiver &receiver, float u) const {
-    if (u < environment_choice_)
-        return ChosenLight{environment_light(), environment_choice_};
-    std::optional<ChosenLight> chosen =
-        tree_.choose(receiver, (u - environment_choice_) / (1 - environment_choice_));
+    float of_tree = 1;
+    for (std::size_t i = 0; i < distant_choice_.size(); ++i) {
+        if (u < distant_choice_[i])
+            return ChosenLight{near_.size() + i, distant_choice_[i]};
+        u -= distant_choice_[i];
+        of_tree -= distant_choice_[i];
+    }
+    std::optional<ChosenLight> chosen = tree_.choose(receiver, std::min(u / of_tree, kBelowOne));
     if (chosen)
-        chosen->probability *= 1 - environment_choice_;
+        chosen->probability *= of_tree;
     return chosen;
 }
 
 float Lights::choice_probability(const Receiver &receiver, std::size_t light) const {
-    return light == environment_light()
-               ? environment_choice_
-               : (1 - environment_choice_) * tree_.probability(receiver, light);
+    if (light >= near_.size())
+        return light - near_.size() < distant_choice_.size() ? distant_choice_[light - near_.size()]
+                                                             : 0.0f;
+    float of_tree = 1;
+    for (const float choice : distant_choice_)
+        of_tree -= choice;
+    return of_tree * tree_.probability(receiver, light);
 }
 
 std::optional<LightRay> Lights::sample(std::size_t light, const glm::vec3 &from,
                                        glm::vec2 u) const {
-    if (light < rectangles_.size())
-        return rectangles_[light].sample(from, u);
+    std::optional<LightRay> ray;
+    if (light < near_.size())
+        ray = std::visit([&](const auto &l) { return l.sample(from, u); }, near_[light]);
+    else if (light < environment_light())
+        ray = suns_[light - near_.size()].sample(u);
+    else
+        return sample_environment(u);
+    if (ray && !traits_[light].shadows && ray->pdf < kOnlyDirection) {
+        ray->radiance /= ray->pdf;
+        ray->pdf = kOnlyDirection;
+    }
+    return ray;
+}
+
+std::optional<LightMet> Lights::seen(const glm::vec3 &from, const glm::vec3 &direction,
+                                     float farthest) const {
+    std::optional<LightMet> nearest;
+    if (!any_seen_)
+        return nearest;
+    tree_.cross(from, direction, [&](std::size_t i) {
+        if (!traits_[i].visible)
+            return false;
+        std::visit(
+            [&](const auto &light) {
+                const std::optional<float> front = light.crossing(from, direction);
+                const std::optional<float> any =
+                    front || !traits_[i].blocks ? front : light.obstacle(from, direction);
+                if (any && *any < farthest) {
+                    farthest = *any;
+                    nearest = LightMet{front ? light.radiance() : 0.0f, traits_[i].group, i, 0};
+                }
+            },
+            near_[i]);
+        return false;
+    });
+    return nearest;
+}
+
+bool Lights::block(const glm::vec3 &from, const glm::vec3 &direction, float farthest,
+                   std::size_t to) const {
+    return obstacles_ && tree_.cross(from, direction, [&](std::size_t i) {
+        if (!traits_[i].blocks || i == to)
+            return false;
+        const std::optional<float> distance = std::visit(
+            [&](const auto &light) { return light.obstacle(from, direction); }, near_[i]);
+        return distance && *distance < farthest;
+    });
+}
+
+bool Lights::end_at_obstacle(const glm::vec3 &from, const glm::vec3 &direction,
+                             float &farthest) const {
+    if (!obstacles_)
+        return false;
+    bool ended = false;
+    tree_.cross(from, direction, [&](std::size_t i) {
+        const std::optional<float> distance =
+            traits_[i].blocks
+                ? std::visit([&](const auto &light) { return light.obstacle(from, direction); },
+                             near_[i])
+                : std::nullopt;
+        if (distance && *distance < farthest) {
+            // Its own front still counts
+            farthest = std::nextafter(*distance, kInfinity);
+            ended = true;
+        }
+        return false;
+    });
+    return ended;
+}
+
+std::optional<LightRay> Lights::sample_environment(glm::vec2 u) const {
     const Distribution2D::Sample s = environment_density_.sample(u);
     const float theta = kPiF * s.point.y, phi = 2 * kPiF * (s.point.x - 0.5f);
     const float sine = std::sin(theta);
@@ -79,7 +229,7 @@ std::optional<LightRay> Lights::sample(std::size_t light, const glm::vec3 &from,
         return std::nullopt;
     const glm::vec3 to_light(sine * std::sin(phi), std::cos(theta), sine * std::cos(phi));
     return LightRay{to_light, kInfinity, environment_radiance(to_light),
-                    s.density / (2 * kPiF * kPiF * sine), environment_group_};
+                    s.density / (2 * kPiF * kPiF * sine)};
 }
 
 glm::vec2 Lights::square_of(const glm::vec3 &d) const {
@@ -88,7 +238,8 @@ glm::vec2 Lights::square_of(const glm::vec3 &d) const {
 }
 
 LightMet Lights::meet_environment(const glm::vec3 &direction) const {
-    return {environment_radiance(direction), environment_group_, environment_light(),
+    const std::size_t light = environment_light();
+    return {environment_radiance(direction), traits_[light].group, light,
             environment_pdf(direction)};
 }
 

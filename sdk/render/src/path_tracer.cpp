@@ -96,7 +96,7 @@ template <int K> struct PathTracer<K>::Path {
 // the ray's direction, a hit at distance 0 stands for whatever the ray would meet.
 template <int K> bool PathTracer<K>::find_next(const Path &path, Hit &hit) {
     if (is_last(path) && scene_.plan.short_last_rays &&
-        !scene_.lights.crosses_rectangle(path.origin, path.direction)) {
+        !scene_.lights.crosses_light(path.origin, path.direction)) {
         hit.distance = 0;
         if (!scene_.lights.has_environment())
             return true;
@@ -206,13 +206,19 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
     ShadowRay shadow{vertex.ray_origin(ray->to_light),
                      ray->to_light,
                      ray->distance * kShadowReach,
-                     path.radiance + ray->group,
+                     path.radiance + scene_.lights.group(chosen.light),
                      {}};
-    const Channels<K> response =
-        coloured<K>(w.f_cos, colours,
-                    ray->radiance * power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf));
-    if (path.vertex > 0 || scene_.has_holes()) {
-        const float arrives = transmission(shadow.origin, shadow.direction, shadow.distance);
+    const float weight = ray->pdf < kOnlyDirection
+                             ? power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf)
+                             : 1 / chosen.probability;
+    const Channels<K> response = coloured<K>(w.f_cos, colours, ray->radiance * weight);
+    const bool shadows = scene_.lights.throws_shadows(chosen.light);
+    if (shadows &&
+        scene_.lights.block(shadow.origin, shadow.direction, shadow.distance, chosen.light))
+        return;
+    if (path.vertex > 0 || scene_.has_holes() || !shadows) {
+        const float arrives =
+            shadows ? transmission(shadow.origin, shadow.direction, shadow.distance) : 1.0f;
         if (arrives > 0)
             shadow.to->add(response, path.throughput, arrives);
         return;
@@ -241,20 +247,17 @@ template <int K> void PathTracer<K>::add_shadow_rays() {
 }
 
 // Adds beta_n M_n; the path's throughput is beta_{n+1} already, but for the roulette.
-// \param distance to the next surface; infinite where there is none
+// \param distance to what ends the ray; infinite where nothing does
 // \param pdf of the path's direction
 template <int K>
 void PathTracer<K>::add_lights_met(const Path &path, const Vertex &vertex, float distance,
                                    float pdf) const {
-    const Lights &lights = scene_.lights;
     const auto add = [&](const LightMet &met) {
         const float sampled = met.pdf > 0 ? met.pdf * light_share(path, vertex, met.light) : 0.0f;
         path.radiance[met.group].add(path.throughput,
                                      met.radiance * (pdf * power_weight_over_pdf(pdf, sampled)));
     };
-    lights.meet_rectangles(path.origin, path.direction, distance, add);
-    if (!(distance < kInfinity) && lights.has_environment())
-        add(lights.meet_environment(path.direction));
+    scene_.lights.meet(path.origin, path.direction, distance, add);
 }
 
 // No vertex follows the path's last one.
@@ -305,13 +308,16 @@ void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Chann
 
 // The path from where its camera ray hit.
 template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *first) {
-    if (!(hit.distance < kInfinity) || (scene_.has_holes() && !pass_holes(path, true, hit))) {
-        if (scene_.lights.has_environment() && scene_.lights.environment_visible()) {
-            const LightMet met = scene_.lights.meet_environment(path.direction);
-            path.radiance[met.group] = Channels<K>::filled(met.radiance);
-        }
-        return;
-    }
+    const bool hits =
+        hit.distance < kInfinity && (!scene_.has_holes() || pass_holes(path, true, hit));
+    const auto see = [&](const LightMet &met) {
+        path.radiance[met.group].add(Channels<K>::filled(1), met.radiance);
+    };
+    if (const auto seen =
+            scene_.lights.seen(path.origin, path.direction, hits ? hit.distance : kInfinity))
+        return see(*seen);
+    if (!hits)
+        return scene_.lights.see_distant(path.direction, see);
 
     for (;; path.go_on()) {
         // Vertex at the hit
@@ -351,10 +357,12 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
 
         // Direct light, met by that ray
         const bool found = find_next(path, hit);
-        add_lights_met(path, vertex, found ? hit.distance : kInfinity, pdf);
+        float farthest = found ? hit.distance : kInfinity;
+        const bool ended = scene_.lights.end_at_obstacle(path.origin, path.direction, farthest);
+        add_lights_met(path, vertex, farthest, pdf);
 
         // End of the path
-        if (!found || is_last(path) || !survives(path))
+        if (!found || ended || is_last(path) || !survives(path))
             return;
     }
 }

@@ -9,9 +9,21 @@
 namespace tsuya {
 namespace {
 
-std::string name_of(const Scene &scene, std::size_t light) {
-    const std::string &name = scene.rectangles[light].name;
-    return name.empty() ? "rectangles[" + std::to_string(light) + "]" : "'" + name + "'";
+std::string name_in(const Scene &scene, std::size_t light) {
+    const std::string &name = name_of(scene.lights[light]);
+    return name.empty() ? "lights[" + std::to_string(light) + "]" : "'" + name + "'";
+}
+
+// The light is seen, or what it hides, though it be dark.
+bool is_thing(const Light &light) {
+    return std::visit(
+        [](const auto &l) {
+            if constexpr (requires { l.behaviour; })
+                return l.behaviour.visible || l.behaviour.blocks;
+            else
+                return false;
+        },
+        light);
 }
 
 } // namespace
@@ -52,9 +64,9 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
     if (settings.max_bounces > 0 &&
         skip(!scatters, "nothing scatters light", "all bounces and shadow rays"))
         p.max_bounces = 0;
-    for (std::size_t i = 0; i < scene.rectangles.size(); ++i)
-        if (!skip(scene.rectangles[i].radiance == 0, "the light " + name_of(scene, i) + " is dark",
-                  "its shadow rays"))
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (!skip(emission_of(scene.lights[i]) == 0 && !is_thing(scene.lights[i]),
+                  "the light " + name_in(scene, i) + " is dark", "its shadow rays"))
             p.lights.push_back(i);
     p.environment = scene.environment && !skip(scene.environment->radiance == 0,
                                                "the environment is dark", "its sampling");
@@ -87,7 +99,7 @@ std::string channels_text(const Plan &p) {
 
 std::string explain(const Plan &p) {
     std::string text = channels_text(p) + "bounces: up to " + std::to_string(p.max_bounces) + "\n";
-    text += "lights: " + detail::counted(p.lights.size(), "rectangle") +
+    text += "lights: " + detail::counted(p.lights.size(), "light") +
             (p.environment ? ", environment" : "") + "\n";
     text += std::string("parts:") + (p.any_diffuse ? " diffuse" : "") +
             (p.any_specular ? " specular" : "") + "\n";

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
+#include "scene_check.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
@@ -12,25 +12,6 @@
 
 namespace tsuya {
 namespace {
-
-bool is_length(const glm::dvec3 &v) {
-    return std::abs(v.x) <= kLargestLength && std::abs(v.y) <= kLargestLength &&
-           std::abs(v.z) <= kLargestLength; // false for NaN
-}
-
-bool is_radiance(double v) { return v >= 0 && v <= kLargestRadiance; }
-
-std::string number_text(double v) {
-    std::ostringstream text;
-    text << v;
-    return text.str();
-}
-
-std::string lengths_text() {
-    return "expected coordinates within " + number_text(kLargestLength) + " m";
-}
-
-std::string radiances_text() { return "expected 0 to " + number_text(kLargestRadiance); }
 
 std::string size_text(const Texture &picture) {
     return std::to_string(picture.width) + " x " + std::to_string(picture.height);
@@ -206,22 +187,16 @@ struct SceneCheck {
             } catch (const Error &error) {
                 problems.add(error);
             }
-        need(!scene.rectangles.empty() || scene.environment, "the scene has no light", "lights",
-             "expected a rectangle or an environment");
-        for (std::size_t i = 0; i < scene.rectangles.size(); ++i) {
-            const RectangleLight &light = scene.rectangles[i];
-            const std::string where = "rectangles[" + std::to_string(i) + "]";
-            if (!is_length(light.corner) || !is_length(light.edge_u) || !is_length(light.edge_v))
-                need(false, "the light lies too far away or is too large", where, lengths_text());
-            else
-                need(glm::length(glm::cross(light.edge_u, light.edge_v)) >= kSmallestLight,
-                     "the light has no area", where,
-                     "expected two edges that are not parallel, and at least " +
-                         number_text(kSmallestLight) + " m2");
-            need(is_radiance(light.radiance), "the radiance is " + number_text(light.radiance),
-                 where + ".radiance", radiances_text());
-            check_group(light.group, where + ".group");
-        }
+        need(!scene.lights.empty() || scene.environment, "the scene has no light", "lights",
+             "expected a light or an environment");
+        for (std::size_t i = 0; i < scene.lights.size(); ++i)
+            std::visit(
+                [&](const auto &light) {
+                    const std::string where = "lights[" + std::to_string(i) + "]";
+                    check_light(light, where, problems);
+                    check_group(light.group, where + ".group");
+                },
+                scene.lights[i]);
         if (scene.environment)
             check_environment(*scene.environment);
     }

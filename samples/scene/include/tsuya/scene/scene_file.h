@@ -86,7 +86,7 @@ struct SceneFile {
     std::vector<MeshEntry> bodies{};
     std::optional<BackdropEntry> backdrop{};
     std::vector<std::string> light_groups{};
-    std::vector<RectangleLight> lights{};
+    std::vector<Light> lights{};
     std::vector<std::string> light_places{}; ///< file:line:column of each light
     std::optional<Environment> environment{};
     RenderSettings render{};

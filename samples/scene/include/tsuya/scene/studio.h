@@ -45,10 +45,6 @@ struct Softbox {
 /// direction, a length or strength out of range.
 RectangleLight make_light(const Softbox &softbox);
 
-/// Irradiance that a rectangle of its radiance gives to a small plane, by Lambert's formula for a
-/// polygon. The whole rectangle has to lie above the plane, and the plane before the rectangle.
-double irradiance(const RectangleLight &light, const glm::dvec3 &point, const glm::dvec3 &normal);
-
 /// How a camera looks at what it frames.
 struct Framing {
     double azimuth = 0;          ///< radians about +y from +z to +x: where the camera stands

@@ -26,7 +26,7 @@ struct Plan {
     bool any_specular = false;
     bool any_diffuse = false;
     bool short_last_rays = false; ///< the ray after a path's last vertex looks for lights alone
-    std::vector<std::size_t> lights{}; ///< rectangles that shine
+    std::vector<std::size_t> lights{}; ///< into Scene::lights: those that shine or are things
     std::vector<Skip> skips{};
     int channels = 0; ///< of the render; RenderSettings::channels but for depths of dye
     /// The dyes whose depths are the channels; none: channels are wavelengths. Where a range ends

@@ -13,6 +13,7 @@
 #include "tsuya/sdk/camera.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/image.h"
+#include "tsuya/sdk/light.h"
 #include "tsuya/sdk/print.h"
 #include "tsuya/sdk/scene_index.h"
 #include "tsuya/sdk/surface.h"
@@ -20,11 +21,7 @@
 
 namespace tsuya {
 
-/// Bounds within which sums of float products stay finite: over 65536 samples, with responses of
-/// up to 10^4 /sr and the squares that errors are estimated from.
-inline constexpr double kLargestRadiance = 1e12;
-inline constexpr double kLargestLength = 1e9;   ///< of every coordinate, metres
-inline constexpr double kSmallestLight = 1e-14; ///< area of a rectangle, square metres
+inline constexpr double kLargestLength = 1e9; ///< of every coordinate, metres
 
 /// The fabric of one panel of an object, in place of the object's own.
 struct PanelFabric {
@@ -55,16 +52,6 @@ struct Object {
     std::vector<PanelFabric> panels{}; ///< each panel once; those not here are as the object
 };
 
-/// A rectangle that shines to the side of cross(edge_u, edge_v). Radiance is relative to the
-/// group's lamp: a perfect white diffuser that receives irradiance pi has T = 1.
-struct RectangleLight {
-    std::string name{}; ///< for messages
-    glm::dvec3 corner{0, 2, 2};
-    glm::dvec3 edge_u{1, 0, 0}, edge_v{0, 1, 0}; ///< metres
-    double radiance = 1.0;                       ///< 0 to kLargestRadiance
-    LightGroupIndex group{};
-};
-
 /// Light from infinitely far. With a picture: its first channel, latitude-longitude, row 0 towards
 /// +y, the centre column towards +z; scaled by `radiance`.
 struct Environment {
@@ -87,7 +74,7 @@ struct Scene {
     std::vector<Object> objects{};
     std::vector<std::string> light_groups{
         "key"}; ///< each gets its own transport, and so its own lamp
-    std::vector<RectangleLight> rectangles{};
+    std::vector<Light> lights{};
     std::optional<Environment> environment{};
     Camera camera{};
 };

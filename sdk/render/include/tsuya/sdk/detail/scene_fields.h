@@ -85,14 +85,66 @@ template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &objec
     f(detail::Field{"panels"}, panels);
 }
 
+template <class F, detail::MaybeConst<LightBehaviour> T> void each_field(F &&f, T &behaviour) {
+    auto &[visible, blocks, shadows] = behaviour;
+    f(detail::Field{"visible"}, visible);
+    f(detail::Field{"blocks"}, blocks);
+    f(detail::Field{"shadows"}, shadows);
+}
+
 template <class F, detail::MaybeConst<RectangleLight> T> void each_field(F &&f, T &light) {
-    auto &[name, corner, edge_u, edge_v, radiance, group] = light;
+    auto &[name, corner, edge_u, edge_v, radiance, group, behaviour] = light;
     f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"corner"}, corner);
     f(detail::Field{"edge_u"}, edge_u);
     f(detail::Field{"edge_v"}, edge_v);
     f(detail::Field{.key = "radiance", .low = 0}, radiance);
     f(detail::Field{"group"}, group);
+    f(detail::Field{"behaviour"}, behaviour);
+}
+
+template <class F, detail::MaybeConst<DiskLight> T> void each_field(F &&f, T &light) {
+    auto &[name, centre, direction, radius, radiance, group, behaviour] = light;
+    f(detail::Field{.key = "name", .in_picture = false}, name);
+    f(detail::Field{"centre"}, centre);
+    f(detail::Field{"direction"}, direction);
+    f(detail::Field{.key = "radius", .low = 0}, radius);
+    f(detail::Field{.key = "radiance", .low = 0}, radiance);
+    f(detail::Field{"group"}, group);
+    f(detail::Field{"behaviour"}, behaviour);
+}
+
+template <class F, detail::MaybeConst<SphereLight> T> void each_field(F &&f, T &light) {
+    auto &[name, centre, radius, radiance, group, behaviour] = light;
+    f(detail::Field{.key = "name", .in_picture = false}, name);
+    f(detail::Field{"centre"}, centre);
+    f(detail::Field{.key = "radius", .low = 0}, radius);
+    f(detail::Field{.key = "radiance", .low = 0}, radiance);
+    f(detail::Field{"group"}, group);
+    f(detail::Field{"behaviour"}, behaviour);
+}
+
+template <class F, detail::MaybeConst<PointLight> T> void each_field(F &&f, T &light) {
+    auto &[name, position, intensity, direction, full_angle, cone_angle, group, shadows] = light;
+    f(detail::Field{.key = "name", .in_picture = false}, name);
+    f(detail::Field{"position"}, position);
+    f(detail::Field{.key = "intensity", .low = 0}, intensity);
+    f(detail::Field{"direction"}, direction);
+    f(detail::Field{.key = "full_angle", .low = 0}, full_angle);
+    f(detail::Field{.key = "cone_angle", .low = 0}, cone_angle);
+    f(detail::Field{"group"}, group);
+    f(detail::Field{"shadows"}, shadows);
+}
+
+template <class F, detail::MaybeConst<SunLight> T> void each_field(F &&f, T &light) {
+    auto &[name, to_light, angular_radius, irradiance, group, visible, shadows] = light;
+    f(detail::Field{.key = "name", .in_picture = false}, name);
+    f(detail::Field{"to_light"}, to_light);
+    f(detail::Field{.key = "angular_radius", .low = 0}, angular_radius);
+    f(detail::Field{.key = "irradiance", .low = 0}, irradiance);
+    f(detail::Field{"group"}, group);
+    f(detail::Field{"visible"}, visible);
+    f(detail::Field{"shadows"}, shadows);
 }
 
 template <class F, detail::MaybeConst<Image> T> void each_field(F &&f, T &image) {
@@ -134,8 +186,8 @@ template <class F, detail::MaybeConst<Camera> T> void each_field(F &&f, T &camer
 }
 
 template <class F, detail::MaybeConst<Scene> T> void each_field(F &&f, T &scene) {
-    auto &[surfaces, fabrics, open_dyes, textures, prints, opacities, objects, light_groups,
-           rectangles, environment, camera] = scene;
+    auto &[surfaces, fabrics, open_dyes, textures, prints, opacities, objects, light_groups, lights,
+           environment, camera] = scene;
     f(detail::Field{"surfaces"}, surfaces);
     f(detail::Field{"fabrics"}, fabrics);
     f(detail::Field{"open_dyes"}, open_dyes);
@@ -144,7 +196,7 @@ template <class F, detail::MaybeConst<Scene> T> void each_field(F &&f, T &scene)
     f(detail::Field{"opacities"}, opacities);
     f(detail::Field{"objects"}, objects);
     f(detail::Field{"light_groups"}, light_groups);
-    f(detail::Field{"rectangles"}, rectangles);
+    f(detail::Field{"lights"}, lights);
     f(detail::Field{"environment"}, environment);
     f(detail::Field{"camera"}, camera);
 }
