@@ -116,7 +116,7 @@ struct FabricFit final : Command {
         }
         report.model.name = model_of(fabric);
         const Material material = resolve(fabric, "fabric", progress);
-        compare(table, material.specular, report, progress);
+        compare(table, material.specular.get(), report, progress);
         if (material.specular && !weave_name.empty())
             report.covers = covers(*material.specular);
         if (material.specular)
@@ -193,7 +193,7 @@ struct FabricFit final : Command {
     }
 
     // The model on the views that it was fitted to.
-    static void compare(const ReflectanceTable &table, const std::optional<Brdf> &brdf,
+    static void compare(const ReflectanceTable &table, const Brdf *brdf,
                         FitReport &report, const Progress &progress) {
         const BrdfFunction f = brdf ? function_of(*brdf) : [](auto &&...) { return 0.0; };
         for (const BardView &view : report.bard.views())

@@ -50,6 +50,16 @@ std::optional<garment::UpAxis> stated_up(const std::string &up) {
     return up.empty() ? std::nullopt : std::optional(garment::up_axis(up));
 }
 
+void add_cache(Options &options, bool &no_cache) {
+    options.flag("--no-cache", &no_cache,
+                 "neither read nor write the tables of fabrics in $XDG_CACHE_HOME/tsuya or "
+                 "~/.cache/tsuya");
+}
+
+TableCache cache_unless(bool no_cache) {
+    return {.folder = no_cache ? std::filesystem::path() : user_cache_folder()};
+}
+
 void add_threads(Options &options, int &threads) {
     options.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
         .range(0, 4096);

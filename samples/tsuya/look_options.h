@@ -9,6 +9,7 @@
 #include "options.h"
 #include "tsuya/color/config.h"
 #include "tsuya/garment/garment.h"
+#include "tsuya/sdk/table_cache.h"
 
 namespace tsuya::program {
 
@@ -41,5 +42,10 @@ std::vector<std::string> model_choices(const std::string &more = {});
 
 /// `--threads`, 0 for all processors
 void add_threads(Options &options, int &threads);
+
+/// `--no-cache`.
+void add_cache(Options &options, bool &no_cache);
+/// The user's cache of tables, or none.
+TableCache cache_unless(bool no_cache);
 
 } // namespace tsuya::program

@@ -30,7 +30,7 @@ struct Render final : Command {
     std::vector<int> crop{};
     std::vector<std::string> aovs{};
     double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
-    bool resume = false, explains = false, denoises = false;
+    bool resume = false, explains = false, denoises = false, no_cache = false;
 
     void options(Options &o) override {
         o.argument(&scene, "SCENE.toml", "scene file").required();
@@ -79,6 +79,7 @@ struct Render final : Command {
         o.option("--checkpoint-every", &checkpoint_seconds, "S",
                  "seconds between the checkpoints of a running render; 0: only at its end")
             .range(0, 1e6);
+        add_cache(o, no_cache);
         o.flag("--resume", &resume, "go on from OUT.exr.checkpoint");
         o.flag("--explain", &explains, "print the plan, and do not render");
         o.option("--stats", &stats, "FILE.json", "file for time, rays and error")
@@ -121,7 +122,7 @@ struct Render final : Command {
             return kDone;
         }
         for_each_place(file, [](const fs::path &place) { scene::prepare_output_file(place); });
-        KeptMaterials kept;
+        KeptMaterials kept(cache_unless(no_cache));
         const auto count = static_cast<std::size_t>(frames.value_or(1));
         for (frame_ = 0; frame_ < count; ++frame_) {
             if (frame_ > 0)

@@ -23,7 +23,7 @@ struct TryOn final : Command {
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
-    bool keeps_noise = false;
+    bool keeps_noise = false, no_cache = false;
     const Option *dye = nullptr, *channels = nullptr;
 
     void options(Options &o) override {
@@ -120,6 +120,7 @@ struct TryOn final : Command {
                "pixel are never denoised");
         add_threads(o, job.render.threads);
         o.option("--seed", &job.render.seed, "N", "random seed");
+        add_cache(o, no_cache);
     }
 
     Status run(Console &console) override {
@@ -149,6 +150,7 @@ struct TryOn final : Command {
             job.render.stop = {.samples_per_pixel = *samples};
         job.render.denoise = !keeps_noise;
         job.wavelengths = channels->given;
+        job.cache = cache_unless(no_cache);
         scene::TryOnResult result;
         detail::run_with_threads(job.render.threads,
                                  [&] { result = scene::run(job, console.progress()); });

@@ -78,12 +78,12 @@ const std::vector<Owned> kOwners{
     {"benchmark/", {"tests"}},
 };
 
-const Folders kSystem{
-    "spawn.h",     "unistd.h",       "fcntl.h",     "poll.h",      "time.h",        "signal.h",
-    "pthread.h",   "sched.h",        "immintrin.h", "xmmintrin.h", "pmmintrin.h",   "dlfcn.h",
-    "stdlib.h",    "glob.h",         "sys/stat.h",  "sys/mman.h",  "sys/prctl.h",   "sys/types.h",
-    "sys/wait.h",  "sys/resource.h", "sys/time.h",  "sys/ioctl.h", "sys/utsname.h", "sys/file.h",
-    "sys/mount.h", "termios.h"};
+const Folders kSystem{"spawn.h",        "unistd.h",   "fcntl.h",     "poll.h",        "time.h",
+                      "signal.h",       "pthread.h",  "sched.h",     "immintrin.h",   "xmmintrin.h",
+                      "pmmintrin.h",    "dlfcn.h",    "link.h",      "stdlib.h",      "glob.h",
+                      "sys/stat.h",     "sys/mman.h", "sys/prctl.h", "sys/types.h",   "sys/wait.h",
+                      "sys/resource.h", "sys/time.h", "sys/ioctl.h", "sys/utsname.h", "sys/file.h",
+                      "sys/mount.h",    "termios.h"};
 
 std::string first_part(const std::string &path) { return path.substr(0, path.find('/')); }
 

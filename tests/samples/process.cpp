@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@ std::string text_of(const std::filesystem::path &file) {
 }
 
 [[noreturn]] void become(std::vector<char *> &arguments, const char *out, const char *err) {
+    setenv("XDG_CACHE_HOME", TSUYA_TEST_CACHE, 0);
     const int flags = O_CREAT | O_WRONLY | O_TRUNC;
     const int to_out = open(out, flags, 0600), to_err = open(err, flags, 0600);
     const int from_nothing = open("/dev/null", O_RDONLY);

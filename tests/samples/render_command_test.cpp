@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <signal.h>
+#include <stdlib.h>
 
 #include <nlohmann/json.hpp>
 
 #include "limited_disk.h"
 #include "samples/program_run.h"
+#include "tsuya/scene/data_folder.h"
 
 namespace tsuya::program {
 namespace {
@@ -44,6 +46,34 @@ TEST(RenderCommand, RendersAScene) {
     EXPECT_EQ(numbers.at("samples_per_pixel"), 6);
     EXPECT_EQ(numbers.at("interrupted"), false);
     EXPECT_FALSE(fs::exists(exr.string() + ".checkpoint"));
+}
+
+// The second run reads the tables that the first one made, and renders the same.
+TEST(RenderCommand, KeepsTablesOnDisk) {
+    const Scratch scratch;
+    std::string text = read_file(write_scene(scratch));
+    text.replace(text.find("dye ="), 5,
+                 "file = \"" + (scene::data_folder() / "fabrics/plastic.fabric.toml").string() +
+                     "\"\ndye =");
+    const std::string scene_file = scratch.write("small.scene.toml", text).string();
+    setenv("XDG_CACHE_HOME", (scratch / "caches").c_str(), 1);
+    const auto transport = [&](const std::string &name, const std::vector<std::string> &more) {
+        std::vector<std::string> call{"render", scene_file, "-o", (scratch / name).string()};
+        call.insert(call.end(), more.begin(), more.end());
+        const Outcome outcome = run(scratch, call);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return read_spectral_exr(scratch / name).transport;
+    };
+    const std::vector<float> first = transport("a.exr", {"--no-cache"});
+    EXPECT_FALSE(fs::exists(scratch / "caches"));
+    EXPECT_EQ(transport("b.exr", {}), first);
+    const auto files = fs::directory_iterator(scratch / "caches/tsuya");
+    const fs::path file = files->path();
+    const fs::file_time_type made = fs::last_write_time(file) - std::chrono::hours(1);
+    fs::last_write_time(file, made);
+    EXPECT_EQ(transport("c.exr", {}), first);
+    EXPECT_GT(fs::last_write_time(file), made) << "it was not read";
+    unsetenv("XDG_CACHE_HOME");
 }
 
 TEST(RenderCommand, RendersFramesAndGoesOnWithThem) {

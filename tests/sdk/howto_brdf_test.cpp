@@ -12,6 +12,7 @@
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/detail/brdf_core.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/frame.h"
 
 namespace tsuya {
@@ -25,12 +26,19 @@ class PhongCore {
     /// \param reflectance in [0, 1]: an upper bound of the albedo
     /// \param exponent in (0, 10]: the larger, the narrower
     PhongCore(float reflectance, float exponent);
+    /// From a file of tables.
+    explicit PhongCore(detail::TableReader &from) { each_part(from, *this); }
 
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &direction) const { return albedo_.at(direction); }
 
   private:
+    template <class F, detail::MaybeConst<PhongCore> T> friend void each_part(F &&f, T &t) {
+        auto &[reflectance, exponent, of_albedo] = t;
+        f(reflectance, exponent, of_albedo);
+    }
+
     float reflectance_, exponent_;
     AlbedoTable albedo_{};
 };

@@ -124,8 +124,11 @@ TEST(Resolve, TakesTablesOfTheSameCloth) {
     Fabric red = satin(), pale = satin();
     pale.colours.dye = Spectrum::constant(0.7);
     pale.colours.lustre = Lustre::semi_dull;
-    const Material first = resolve(red, "red");
-    const Material taken = resolve(pale, "pale", first), made = resolve(pale, "pale");
+    ModelTables tables;
+    const Material first = resolve(red, "red", tables);
+    const Material taken = resolve(pale, "pale", tables), made = resolve(pale, "pale");
+    EXPECT_EQ(taken.specular, first.specular) << "one object";
+    EXPECT_EQ(taken.body, first.body);
     const glm::vec3 light = direction(40, 10), view = direction(60, 170);
     EXPECT_EQ(taken.specular->evaluate(light, view), made.specular->evaluate(light, view));
     EXPECT_EQ(taken.body->evaluate(light, view), made.body->evaluate(light, view));
@@ -133,7 +136,9 @@ TEST(Resolve, TakesTablesOfTheSameCloth) {
     EXPECT_EQ(taken.warp_body, made.warp_body);
     // A colourless surface takes no light from the body below it
     pale.colours.specular_tint = Spectrum::constant(0);
-    EXPECT_GT(resolve(pale, "pale", first).body->albedo(view), 1.01f * made.body->albedo(view));
+    const Material bare = resolve(pale, "pale", tables);
+    EXPECT_GT(bare.body->albedo(view), 1.01f * made.body->albedo(view));
+    EXPECT_EQ(resolve(pale, "pale", tables).body, bare.body);
 }
 
 // Where nothing is to be tabulated, there is nothing to stop.
@@ -152,6 +157,8 @@ TEST(KeptMaterials, TabulateEachClothOnce) {
     EXPECT_EQ(taken.specular->evaluate(light, view), made.specular->evaluate(light, view));
     EXPECT_EQ(taken.body->evaluate(light, view), made.body->evaluate(light, view));
     EXPECT_EQ(kept.size(), 1u);
+    EXPECT_EQ(kept.use().made, 1u);
+    EXPECT_EQ(kept.use().shared, 1u);
     EXPECT_THROW(kept.resolve(other, "other", stopped), Interrupted) << "another cloth";
     kept.resolve(other, "other");
     EXPECT_EQ(kept.size(), 2u);

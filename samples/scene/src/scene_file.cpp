@@ -70,12 +70,10 @@ void set_f0(Fabric &fabric, double f0, const std::string &scene_file) {
     views->f0 = f0;
 }
 
-Fabric load_fabric(const FabricEntry &entry, const std::string &scene_file) {
-    Fabric fabric;
+/// \param fabric as its file has it; without file empty
+Fabric as_entered(Fabric fabric, const FabricEntry &entry, const std::string &scene_file) {
     if (entry.file.empty())
         fabric.colours.dye = Spectrum::constant(kPlainReflectance);
-    else
-        fabric = read_fabric(entry.file);
     fabric.name = entry.name;
     if (entry.dye)
         fabric.colours.dye_all(*entry.dye);
@@ -164,8 +162,12 @@ struct SceneBuilder {
 
     void add_fabrics() {
         Scene &scene = built.scene;
-        for (const FabricEntry &entry : file.fabrics)
-            scene.fabrics.push_back(load_fabric(entry, file.path.string()));
+        std::map<std::filesystem::path, Fabric> files{{{}, {}}};
+        for (const FabricEntry &entry : file.fabrics) {
+            if (!files.contains(entry.file))
+                files[entry.file] = read_fabric(entry.file, progress);
+            scene.fabrics.push_back(as_entered(files[entry.file], entry, file.path.string()));
+        }
         add_pictures(file.patterns, file.opacities, scene);
         for (std::uint32_t i = 0; i < file.fabrics.size(); ++i)
             if (file.fabrics[i].open_dye)

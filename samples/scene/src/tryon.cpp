@@ -371,7 +371,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
 
     TryOnResult result{.report = std::move(stage.shown.report)};
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
-    KeptMaterials kept;
+    KeptMaterials kept(job.cache);
     const bool open = dyes.front().spectrum && leave_dye_open(job, scene);
     const std::size_t at_once = open ? dyes.size() : 1; // dyes of one render
     const std::size_t count = shapes * dyes.size();

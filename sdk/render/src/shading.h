@@ -2,6 +2,7 @@
 // A material without its colours: the specular model above the diffuse part.
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "channels.h"
@@ -84,8 +85,8 @@ class Shading {
     void share_samples(const glm::vec3 &to_viewer, ViewTerms &view) const;
     float albedo(const glm::vec3 &direction) const;
 
-    std::optional<Brdf> specular_;
-    std::optional<BodyBrdf> body_; // the coloured part that follows the yarns
+    std::shared_ptr<const Brdf> specular_; // of the material
+    std::shared_ptr<const BodyBrdf> body_; // the coloured part that follows the yarns
     bool diffuse_, couples_;
     bool two_tints_, two_dyes_;
     MeanColours means_;

@@ -1,22 +1,38 @@
 #include "tsuya/sdk/kept_materials.h"
 
-#include <algorithm>
+#include "fabric/table_files.h"
+#include "tsuya/sdk/detail/fabric_fields.h"
 
 namespace tsuya {
+namespace {
+
+std::uint64_t hash_of(const Specular &specular, int salt) {
+    detail::FieldHasher hasher;
+    hasher.add(salt);
+    hasher.add(specular);
+    return hasher.result();
+}
+
+} // namespace
 
 Material KeptMaterials::resolve(const Fabric &fabric, const std::string &where,
                                 const Progress &progress) {
-    const auto known = std::find_if(kept_.begin(), kept_.end(),
-                                    [&](const Kept &k) { return k.specular == fabric.specular; });
-    if (known == kept_.end()) {
-        Material made = tsuya::resolve(fabric, where, progress);
-        kept_.push_back({fabric.specular, made});
-        return made;
+    if (!reflects(fabric.specular))
+        return tsuya::resolve(fabric, where, progress);
+    const Key key{hash_of(fabric.specular, 0), hash_of(fabric.specular, 1)};
+    const auto known = kept_.find(key);
+    ModelTables tables = known == kept_.end() ? ModelTables{} : known->second;
+    if (known != kept_.end())
+        ++use_.shared;
+    else if (read_tables(cache_, key, tables))
+        ++use_.read;
+    const ModelTables before = tables;
+    Material made = tsuya::resolve(fabric, where, tables, progress);
+    kept_[key] = tables;
+    if (tables != before) {
+        ++use_.made;
+        write_tables(cache_, key, tables, use_.cache_problem);
     }
-    Material made = tsuya::resolve(fabric, where, known->material, progress);
-    // One with a body, so that the next dye need not make it again
-    if (made.body && !known->material.body)
-        known->material = made;
     return made;
 }
 

@@ -67,9 +67,8 @@ struct Port {
 };
 
 // Adds the coloured part and what the cloth lets through.
-// \param made of the same specular part, if there is one; its body serves where its surface
-// reflects or does not as this one's
-void add_colours(const Fabric &fabric, Material &material, const Material *made,
+// \param tables of the specular part
+void add_colours(const Fabric &fabric, Material &material, ModelTables &tables,
                  const Progress &progress) {
     const FabricColours &colours = fabric.colours;
     // Of light, for viewers too: so the renderer scales the Lambertian part
@@ -81,10 +80,11 @@ void add_colours(const Fabric &fabric, Material &material, const Material *made,
     Port port{.colours = colours, .even = std::max(1 - at_port(surface), kLeastPassed)};
     if (yarns && yarns->lobes().filaments(0) + yarns->lobes().filaments(1) > 0 &&
         has_body(fabric)) {
-        if (made && made->body && made->has_specular() == material.has_specular())
-            material.body = made->body;
-        else
-            material.body.emplace(yarns->lobes(), surface, progress);
+        std::shared_ptr<const BodyBrdf> &body =
+            material.has_specular() ? tables.body : tables.bare_body;
+        if (!body)
+            body = std::make_shared<const BodyBrdf>(yarns->lobes(), surface, progress);
+        material.body = body;
         port.has_body = true;
         port.body = std::max(at_port([&](const glm::vec3 &d) { return material.body->albedo(d); }),
                              kLeastPassed);
@@ -112,16 +112,6 @@ void add_colours(const Fabric &fabric, Material &material, const Material *made,
     material.warp_body = mapped(warp, [&](double r) { return port.body_albedo(r); });
 }
 
-Material resolve_with(const Fabric &fabric, const std::string &where, const Material *made,
-                      const Progress &progress) {
-    check_fabric(fabric, where);
-    Material material{.specular = made ? made->specular : make_brdf(fabric, where, progress),
-                      .weft_tint = fabric.colours.weft(),
-                      .warp_tint = fabric.colours.warp()};
-    add_colours(fabric, material, made, progress);
-    return material;
-}
-
 } // namespace
 
 bool Material::has_diffuse() const {
@@ -133,12 +123,21 @@ bool Material::has_specular() const {
 }
 
 Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress) {
-    return resolve_with(fabric, where, nullptr, progress);
+    ModelTables tables;
+    return resolve(fabric, where, tables, progress);
 }
 
-Material resolve(const Fabric &fabric, const std::string &where, const Material &made,
+Material resolve(const Fabric &fabric, const std::string &where, ModelTables &tables,
                  const Progress &progress) {
-    return resolve_with(fabric, where, &made, progress);
+    check_fabric(fabric, where);
+    if (!tables.specular)
+        if (std::optional<Brdf> made = make_brdf(fabric, where, progress))
+            tables.specular = std::make_shared<const Brdf>(std::move(*made));
+    Material material{.specular = tables.specular,
+                      .weft_tint = fabric.colours.weft(),
+                      .warp_tint = fabric.colours.warp()};
+    add_colours(fabric, material, tables, progress);
+    return material;
 }
 
 float mean_passed(const Brdf &brdf) {

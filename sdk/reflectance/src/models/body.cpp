@@ -157,6 +157,8 @@ glm::vec3 BodyCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
     return facing > 0 ? 2 * facing * half - fixed : glm::vec3(0);
 }
 
+BodyCore::BodyCore(detail::TableReader &from) { each_part(from, *this); }
+
 template class Model<BodyCore>;
 
 } // namespace tsuya

@@ -106,6 +106,8 @@ float GgxCore::albedo(const glm::vec3 &direction) const {
     return std::min(1.0f, albedo_.at(direction));
 }
 
+GgxCore::GgxCore(detail::TableReader &from) { each_part(from, *this); }
+
 template class Model<GgxCore>;
 
 namespace {

@@ -120,6 +120,8 @@ bool HalfVectorCore::is_extrapolated(const glm::vec3 &to_light, const glm::vec3 
     return Half(to_light, to_viewer).z < std::cos(kQuarterTurn);
 }
 
+HalfVectorCore::HalfVectorCore(detail::TableReader &from) { each_part(from, *this); }
+
 template class Model<HalfVectorCore>;
 
 } // namespace tsuya

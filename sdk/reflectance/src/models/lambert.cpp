@@ -18,6 +18,8 @@ glm::vec3 LambertCore::draw(const glm::vec3 &, const glm::vec3 &u) const {
     return {p, std::sqrt(1.0f - glm::dot(p, p))};
 }
 
+LambertCore::LambertCore(detail::TableReader &from) { each_part(from, *this); }
+
 template class Model<LambertCore>;
 
 } // namespace tsuya

@@ -153,6 +153,8 @@ float TabulatedCore::albedo_of_view(const glm::vec3 &to_viewer) const {
     return view_albedo_.at(to_viewer);
 }
 
+TabulatedCore::TabulatedCore(detail::TableReader &from) { each_part(from, *this); }
+
 template class Model<TabulatedCore>;
 
 } // namespace tsuya

@@ -165,6 +165,8 @@ float TakedaCore::albedo_of_view(const glm::vec3 &to_viewer) const {
     return view_albedo_.at(to_viewer);
 }
 
+TakedaCore::TakedaCore(detail::TableReader &from) { each_part(from, *this); }
+
 template class Model<TakedaCore>;
 
 } // namespace tsuya

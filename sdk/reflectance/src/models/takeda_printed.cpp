@@ -93,6 +93,8 @@ float TakedaPrintedCore::albedo_of_view(const glm::vec3 &to_viewer) const {
     return view_albedo_.at(to_viewer);
 }
 
+TakedaPrintedCore::TakedaPrintedCore(detail::TableReader &from) { each_part(from, *this); }
+
 template class Model<TakedaPrintedCore>;
 
 } // namespace tsuya

@@ -100,6 +100,11 @@ glm::vec3 YarnCore::draw(const glm::vec3 &fixed, const glm::vec3 &u) const {
 
 float YarnCore::albedo(const glm::vec3 &direction) const { return albedo_.at(direction); }
 
+YarnCore::YarnCore(detail::TableReader &from) {
+    each_part(from, *this);
+    optics_ = YarnOptics(checked_f0(lobes_.f0), lobes_.roughness);
+}
+
 template class Model<YarnCore>;
 
 } // namespace tsuya

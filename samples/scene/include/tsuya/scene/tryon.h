@@ -19,6 +19,7 @@
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/render.h"
 #include "tsuya/sdk/scene.h"
+#include "tsuya/sdk/table_cache.h"
 
 namespace tsuya::scene {
 
@@ -73,6 +74,7 @@ struct TryOn {
     int height = 1000;
     /// Pictures of one sample per pixel are never denoised.
     RenderSettings render{.stop = kTryOnQuality, .denoise = true};
+    TableCache cache{}; ///< of the fabrics' tables
     DisplayOptions look = default_look();
     std::filesystem::path output{}; ///< a folder; made where it is missing
 };

@@ -22,6 +22,7 @@
 
 #include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/detail/brdf_core.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/detail/yarn_cones.h"
 #include "tsuya/sdk/detail/yarn_facets.h"
 #include "tsuya/sdk/progress.h"
@@ -41,6 +42,8 @@ class BodyCore {
              const Progress &progress = {});
     /// The body below the yarns' own surface.
     explicit BodyCore(const YarnBrdf &surface, const Progress &progress = {});
+    /// From a file of tables, see detail/table_parts.h.
+    explicit BodyCore(detail::TableReader &from);
 
     float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
@@ -52,6 +55,11 @@ class BodyCore {
     }
 
   private:
+    template <class F, detail::MaybeConst<BodyCore> T> friend void each_part(F &&f, T &t) {
+        auto &[by_cosine, by_cones, facets, cones, scale, of_albedo] = t;
+        f(by_cosine, by_cones, facets, cones, scale, of_albedo);
+    }
+
     void close_energy(const std::function<float(const glm::vec3 &)> &surface_albedo,
                       const Progress &progress);
 

@@ -71,6 +71,8 @@ class Brdf {
     template <class Function> decltype(auto) visit(Function &&function) const {
         return std::visit(std::forward<Function>(function), models_);
     }
+    /// Of the model in Models.
+    std::size_t index() const { return models_.index(); }
     /// The model where it is of that type; null elsewhere.
     template <class M> const M *get_if() const { return std::get_if<M>(&models_); }
 

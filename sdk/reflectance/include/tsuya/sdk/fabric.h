@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/body.h"
 #include "tsuya/sdk/brdf.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/lustre.h"
 #include "tsuya/sdk/progress.h"
@@ -157,15 +159,34 @@ void check_fabric(const Fabric &fabric, const std::string &where);
 /// likely_symmetry knows better, that the model `tabulated` would carry on to light from all sides.
 std::vector<Problem> fabric_warnings(const Fabric &fabric, const std::string &where);
 
+/// What the models of a specular part tabulate, shared by all materials that have it: no one of
+/// them owns it. Null: not made yet, or there is none.
+struct ModelTables {
+    std::shared_ptr<const Brdf> specular{};
+    /// The coloured part that follows the yarns: below the specular part, and below one without a
+    /// colour
+    std::shared_ptr<const BodyBrdf> body{}, bare_body{};
+
+    bool operator==(const ModelTables &) const = default; ///< the same objects
+
+    /// See detail/table_parts.h.
+    template <class F, detail::MaybeConst<ModelTables> T> friend void each_part(F &&f, T &t) {
+        auto &[of_specular, of_body, of_bare_body] = t;
+        f(of_specular);
+        f(of_body);
+        f(of_bare_body);
+    }
+};
+
 /// Resolved. Local space, see brdf.h; both sides of a cloth are alike.
 struct Material {
-    std::optional<Brdf> specular{};
+    std::shared_ptr<const Brdf> specular{}; ///< see ModelTables; null: none
     /// Colours of what yarns along the weft reflect, see WeighedLight, and of the rest
     Spectrum weft_tint = Spectrum::constant(1), warp_tint = Spectrum::constant(1);
     /// Albedo of the Lambertian part, before the specular part takes its share
     Spectrum dye = Spectrum::constant(0), transmittance = Spectrum::constant(0);
     /// The coloured part that follows the yarns, below the specular part; none: all is Lambertian
-    std::optional<BodyBrdf> body{};
+    std::shared_ptr<const BodyBrdf> body{};
     Spectrum weft_body = Spectrum::constant(0), warp_body = Spectrum::constant(0); ///< its colours
     /// Albedo of the Lambertian part (x) and colour of the body (y) of another dye on this cloth,
     /// by its reflectance from 0 to 1 in equal steps, for prints
@@ -180,9 +201,9 @@ struct Material {
 /// Checks the fabric and makes its material. Throws Error naming `where` as check_fabric and as
 /// make_brdf; Interrupted where progress asks to stop.
 Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress = {});
-/// The same of a fabric whose `specular` is that of another, of which `made` was resolved: takes
-/// the tables from there, so that a cloth in other colours takes no time.
-Material resolve(const Fabric &fabric, const std::string &where, const Material &made,
+/// The same with the tables of the fabric's specular part: takes those that are there, so that a
+/// cloth in other colours takes no time, and adds those that it makes.
+Material resolve(const Fabric &fabric, const std::string &where, ModelTables &tables,
                  const Progress &progress = {});
 
 /// What a model lets through to the Lambertian part below it: the mean of 1 - albedo over the

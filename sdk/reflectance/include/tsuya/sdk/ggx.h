@@ -27,6 +27,7 @@
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/detail/albedo_table.h"
 #include "tsuya/sdk/detail/brdf_core.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/progress.h"
 
 namespace tsuya {
@@ -55,12 +56,19 @@ class GgxCore {
 
     /// Throws Error as check_ggx.
     explicit GgxCore(const GgxFacets &facets, const Progress &progress = {});
+    /// From a file of tables, see detail/table_parts.h.
+    explicit GgxCore(detail::TableReader &from);
 
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &direction) const;
 
   private:
+    template <class F, detail::MaybeConst<GgxCore> T> friend void each_part(F &&f, T &t) {
+        auto &[alpha_weft, alpha_warp, f0, index, of_albedo] = t;
+        f(alpha_weft, alpha_warp, f0, index, of_albedo);
+    }
+
     float fresnel_of(float cosine) const;
     float facets(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     float stretched(const glm::vec3 &direction) const;

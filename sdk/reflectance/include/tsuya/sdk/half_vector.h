@@ -25,6 +25,7 @@
 #include "tsuya/sdk/detail/disk_table.h"
 #include "tsuya/sdk/detail/distribution.h"
 #include "tsuya/sdk/detail/limited_albedo.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/progress.h"
 
 namespace tsuya {
@@ -36,6 +37,8 @@ class HalfVectorCore {
 
     /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
     HalfVectorCore(const Bard &bard, double f0, const Progress &progress = {});
+    /// From a file of tables, see detail/table_parts.h.
+    explicit HalfVectorCore(detail::TableReader &from);
 
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
@@ -47,6 +50,11 @@ class HalfVectorCore {
     float unlimited_albedo() const { return albedo_.unlimited_maximum(); }
 
   private:
+    template <class F, detail::MaybeConst<HalfVectorCore> T> friend void each_part(F &&f, T &t) {
+        auto &[f0, facets, density, of_albedo] = t;
+        f(f0, facets, density, of_albedo);
+    }
+
     void tabulate_density();
     void tabulate_albedos(Symmetry symmetry, const Progress &progress);
 

@@ -16,6 +16,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/detail/brdf_core.h"
+#include "tsuya/sdk/detail/table_parts.h"
 
 namespace tsuya {
 
@@ -25,12 +26,19 @@ class LambertCore {
     static constexpr bool kEnergyLimited = true;
 
     explicit constexpr LambertCore(float albedo = 1) : albedo_(albedo) {}
+    /// From a file of tables, see detail/table_parts.h.
+    explicit LambertCore(detail::TableReader &from);
 
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &) const { return albedo_; }
 
   private:
+    template <class F, detail::MaybeConst<LambertCore> T> friend void each_part(F &&f, T &t) {
+        auto &[of_all] = t;
+        f(of_all);
+    }
+
     float albedo_;
 };
 

@@ -21,6 +21,7 @@
 #include "tsuya/sdk/detail/brdf_core.h"
 #include "tsuya/sdk/detail/direction_sampler.h"
 #include "tsuya/sdk/detail/ring_grid.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/reflectance_table.h"
 
@@ -37,6 +38,8 @@ class TabulatedCore {
     /// one; as check_table.
     TabulatedCore(const ReflectanceTable &table, const std::string &where,
                   const Progress &progress = {});
+    /// From a file of tables, see detail/table_parts.h.
+    explicit TabulatedCore(detail::TableReader &from);
 
     float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
@@ -47,10 +50,20 @@ class TabulatedCore {
     float albedo_of_view(const glm::vec3 &to_viewer) const;
 
   private:
+    template <class F, detail::MaybeConst<TabulatedCore> T> friend void each_part(F &&f, T &t) {
+        auto &[lights, grid, light_sampler, view_sampler, light_albedo, view_albedo] = t;
+        f(lights, grid, light_sampler, view_sampler, light_albedo, view_albedo);
+    }
+
     struct Light {
         glm::vec3 to_light{0, 0, 1};
         RingGrid views{};
         std::vector<float> value{}; ///< rho cos_i cos_r over the masking of [Takeda] Eq. 4
+
+        template <class F, detail::MaybeConst<Light> T> friend void each_part(F &&f, T &t) {
+            auto &[of_light, of_views, of_value] = t;
+            f(of_light, of_views, of_value);
+        }
     };
     FacetTerms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
 

@@ -29,6 +29,7 @@
 #include "tsuya/sdk/detail/disk_table.h"
 #include "tsuya/sdk/detail/distribution.h"
 #include "tsuya/sdk/detail/great_circle.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/progress.h"
 
 namespace tsuya {
@@ -40,6 +41,8 @@ class TakedaCore {
 
     /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
     TakedaCore(const Bard &bard, double f0, const Progress &progress = {});
+    /// From a file of tables, see detail/table_parts.h.
+    explicit TakedaCore(detail::TableReader &from);
 
     float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     /// Of many pairs at once, 0 where a direction is not above the horizon.
@@ -56,6 +59,13 @@ class TakedaCore {
     float unlimited_albedo() const { return unlimited_albedo_; }
 
   private:
+    template <class F, detail::MaybeConst<TakedaCore> T> friend void each_part(F &&f, T &t) {
+        auto &[f0, half_turn, scaled, basics, halves, light_albedo, view_albedo, unlimited,
+               limited_below] = t;
+        f(f0, half_turn, scaled, basics, halves, light_albedo, view_albedo, unlimited,
+          limited_below);
+    }
+
     float limit(const glm::vec3 &to_light) const {
         return to_light.z < limited_below_ ? limit_at(to_light) : 1.0f;
     }

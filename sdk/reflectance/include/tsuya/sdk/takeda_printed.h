@@ -15,6 +15,7 @@
 #include "tsuya/sdk/detail/brdf_core.h"
 #include "tsuya/sdk/detail/direction_sampler.h"
 #include "tsuya/sdk/detail/disk_table.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/progress.h"
 
 namespace tsuya {
@@ -33,6 +34,8 @@ class TakedaPrintedCore {
 
     /// \param f0 reflectance of the facets at normal incidence, in (0, 1]; else throws Error
     TakedaPrintedCore(const Bard &bard, double f0, const Progress &progress = {});
+    /// From a file of tables, see detail/table_parts.h.
+    explicit TakedaPrintedCore(detail::TableReader &from);
 
     float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
@@ -43,6 +46,11 @@ class TakedaPrintedCore {
     float albedo_of_view(const glm::vec3 &to_viewer) const;
 
   private:
+    template <class F, detail::MaybeConst<TakedaPrintedCore> T> friend void each_part(F &&f, T &t) {
+        auto &[f0, scaled, lights, views, light_albedo, view_albedo] = t;
+        f(f0, scaled, lights, views, light_albedo, view_albedo);
+    }
+
     FacetTerms terms(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
 
     float f0_ = 0.05f;

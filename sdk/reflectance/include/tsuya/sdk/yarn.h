@@ -37,6 +37,7 @@
 #include "tsuya/sdk/detail/half_vector_sampler.h"
 #include "tsuya/sdk/detail/limited_albedo.h"
 #include "tsuya/sdk/detail/slope_table.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/detail/yarn_depth.h"
 #include "tsuya/sdk/detail/yarn_optics.h"
 #include "tsuya/sdk/progress.h"
@@ -55,6 +56,8 @@ class YarnCore {
     /// Fits the lobes, see fit_yarn_lobes.
     /// \param f0 reflectance of the fibre at normal incidence, in (0, 1]; else throws Error
     YarnCore(const Bard &bard, double f0, const Progress &progress = {});
+    /// From a file of tables, see detail/table_parts.h.
+    explicit YarnCore(detail::TableReader &from);
 
     float f_cos(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
     WeighedLight weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer) const;
@@ -66,6 +69,12 @@ class YarnCore {
     float unlimited_albedo() const { return albedo_.unlimited_maximum(); }
 
   private:
+    template <class F, detail::MaybeConst<YarnCore> T> friend void each_part(F &&f, T &t) {
+        [[maybe_unused]] auto &[lobes, optics, even_per_sr, loose_per_sr, mirrored, depth, facets,
+                                draws, of_albedo] = t;
+        f(lobes, even_per_sr, loose_per_sr, mirrored, depth, facets, draws, of_albedo);
+    }
+
     glm::vec2 loose(const YarnHalf &half, const glm::vec3 &to_light,
                     const glm::vec3 &to_viewer) const;
     glm::vec2 times_light_cosine(const YarnHalf &half, const glm::vec3 &to_light,

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/reflectance_table.h"
 
 namespace tsuya {
@@ -34,6 +35,11 @@ class AlbedoTable {
     float cosine_above(float value) const;
 
   private:
+    template <class F, detail::MaybeConst<AlbedoTable> T> friend void each_part(F &&f, T &t) {
+        auto &[symmetry, columns_of_quarter, columns, value] = t;
+        f(symmetry, columns_of_quarter, columns, value);
+    }
+
     Symmetry symmetry_ = Symmetry::orthotropic;
     int columns_of_quarter_ = 0, columns_ = 0;
     std::vector<float> value_{}; ///< [row from the horizon to the pole][azimuth], ends included

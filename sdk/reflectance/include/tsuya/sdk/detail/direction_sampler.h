@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/detail/distribution.h"
+#include "tsuya/sdk/detail/table_parts.h"
 
 namespace tsuya {
 
@@ -29,6 +30,11 @@ class DirectionSampler {
     float pdf(const glm::vec3 &fixed, const glm::vec3 &drawn) const;
 
   private:
+    template <class F, detail::MaybeConst<DirectionSampler> T> friend void each_part(F &&f, T &t) {
+        auto &[density] = t;
+        f(density);
+    }
+
     std::vector<Distribution2D> density_{}; ///< [row from the horizon to the pole][azimuth]
 };
 

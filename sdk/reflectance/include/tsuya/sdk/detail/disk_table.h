@@ -11,6 +11,8 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/table_parts.h"
+
 namespace tsuya {
 
 /// Bilinear table over the upper hemisphere; one quadrant where the function is orthotropic.
@@ -58,6 +60,11 @@ class DiskTable {
     std::size_t bytes() const { return value_.size() * sizeof(float); }
 
   private:
+    template <class F, detail::MaybeConst<DiskTable> T> friend void each_part(F &&f, T &t) {
+        auto &[nodes, sign, scale, offset, value] = t;
+        f(nodes, sign, scale, offset, value);
+    }
+
     int nodes_ = 0;
     std::uint32_t sign_ = 0x7fffffff; ///< the bits of a coordinate that are kept: folds quadrants
     float scale_ = 0, offset_ = 0;    ///< from the disk to nodes

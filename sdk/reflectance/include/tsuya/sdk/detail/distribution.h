@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/table_parts.h"
+
 namespace tsuya {
 
 /// Samples a point of [0,1) x [0,1) with a density proportional to the weight of its cell.
@@ -54,6 +56,11 @@ class Distribution2D {
     }
 
   private:
+    template <class F, detail::MaybeConst<Distribution2D> T> friend void each_part(F &&f, T &t) {
+        auto &[rows, columns, row_cdf, row_density, column_cdf, row_guide, column_guide] = t;
+        f(rows, columns, row_cdf, row_density, column_cdf, row_guide, column_guide);
+    }
+
     struct Draw {
         std::size_t cell;
         float offset; ///< in [0, 1)

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/detail/distribution.h"
+#include "tsuya/sdk/detail/table_parts.h"
 
 namespace tsuya {
 
@@ -46,6 +47,11 @@ class HalfVectorSampler {
     std::size_t bytes() const;
 
   private:
+    template <class F, detail::MaybeConst<HalfVectorSampler> T> friend void each_part(F &&f, T &t) {
+        auto &[mirrored, columns, blocks, nodes] = t;
+        f(mirrored, columns, blocks, nodes);
+    }
+
     static constexpr int kParts = 4; ///< cells along a block
 
     /// The distribution of half vectors within a block.
@@ -59,6 +65,11 @@ class HalfVectorSampler {
     struct Node {
         Distribution2D blocks;
         float even_draws = 1;
+
+        template <class F, detail::MaybeConst<Node> T> friend void each_part(F &&f, T &t) {
+            auto &[of_blocks, even] = t;
+            f(of_blocks, even);
+        }
     };
     struct Corner {
         int index;

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/detail/albedo_table.h"
+#include "tsuya/sdk/detail/table_parts.h"
 
 namespace tsuya {
 
@@ -34,6 +35,11 @@ class LimitedAlbedo {
     float unlimited_maximum() const { return unlimited_maximum_; }
 
   private:
+    template <class F, detail::MaybeConst<LimitedAlbedo> T> friend void each_part(F &&f, T &t) {
+        auto &[unlimited, albedo, unlimited_maximum, limited_below] = t;
+        f(unlimited, albedo, unlimited_maximum, limited_below);
+    }
+
     AlbedoTable unlimited_{}, albedo_{};
     float unlimited_maximum_ = 0;
     float limited_below_ = 0; ///< cosine from which on nothing is limited

@@ -7,6 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/table_parts.h"
+
 namespace tsuya {
 
 /// Directions on rings about the normal, each ring with azimuths of its own, and the shares with
@@ -28,10 +30,20 @@ class RingGrid {
     Corners about(const glm::vec3 &direction) const;
 
   private:
+    template <class F, detail::MaybeConst<RingGrid> T> friend void each_part(F &&f, T &t) {
+        auto &[rings] = t;
+        f(rings);
+    }
+
     struct Ring {
         float theta = 0;
         std::vector<float> phi{}; ///< ascending, in [0, 2 pi)
         std::vector<std::size_t> index{};
+
+        template <class F, detail::MaybeConst<Ring> T> friend void each_part(F &&f, T &t) {
+            auto &[of_theta, of_phi, of_index] = t;
+            f(of_theta, of_phi, of_index);
+        }
     };
     void add(const Ring &ring, float phi, float share, Corners &corners) const;
 

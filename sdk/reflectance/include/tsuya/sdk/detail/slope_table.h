@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/detail/spline.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/yarn_lobes.h"
 
@@ -31,6 +32,11 @@ class SlopeTable {
     std::size_t bytes() const { return (value_[0].size() + value_[1].size()) * sizeof(float); }
 
   private:
+    template <class F, detail::MaybeConst<SlopeTable> T> friend void each_part(F &&f, T &t) {
+        auto &[mirrored, nodes, columns, value] = t;
+        f(mirrored, nodes, columns, value);
+    }
+
     static constexpr int kRows = 65; ///< over the root of the length
 
     bool mirrored_ = true;

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/detail/distribution.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/yarn_lobes.h"
 
 namespace tsuya {
@@ -42,6 +43,11 @@ class YarnCones {
     std::size_t bytes() const { return sines_.bytes() + turns_.bytes(); }
 
   private:
+    template <class F, detail::MaybeConst<YarnCones> T> friend void each_part(F &&f, T &t) {
+        auto &[sines, turns] = t;
+        f(sines, turns);
+    }
+
     static constexpr float kLeast = 1e-12f;
     /// Of a direction, the sine with the yarn: nearer to it nothing is sampled, where the density
     /// would grow without bound.

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/detail/spline.h"
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/yarn_lobes.h"
 
 namespace tsuya {
@@ -43,6 +44,11 @@ class YarnDepth {
     glm::vec2 in_sight(const glm::vec3 &half, const YarnSpan &span) const;
 
   private:
+    template <class F, detail::MaybeConst<YarnDepth> T> friend void each_part(F &&f, T &t) {
+        auto &[pit, dive] = t;
+        f(pit, dive);
+    }
+
     static constexpr int kNodes = 65;
 
     glm::vec2 pit_{0};

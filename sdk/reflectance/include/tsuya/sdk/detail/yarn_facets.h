@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/yarn_lobes.h"
 
 namespace tsuya {
@@ -42,6 +43,11 @@ class YarnFacets {
     std::size_t bytes() const;
 
   private:
+    template <class F, detail::MaybeConst<YarnFacets> T> friend void each_part(F &&f, T &t) {
+        auto &[roughness, mirrored, all, slopes, table] = t;
+        f(roughness, mirrored, all, slopes, table);
+    }
+
     static constexpr int kAngles = 161, kLengths = 49;
 
     /// The filaments of one system at one slope.
