@@ -19,6 +19,11 @@ glm::dmat3 cat02() {
         glm::dmat3(0.7328, 0.4296, -0.1624, -0.7036, 1.6975, 0.0061, 0.0030, 0.0136, 0.9834));
 }
 
+// The matrix of `bradford` or `cat02`.
+glm::dmat3 cones_of(Adaptation adaptation) {
+    return adaptation == Adaptation::bradford ? bradford() : cat02();
+}
+
 } // namespace
 
 std::vector<std::string> adaptation_names() { return {"none", "bradford", "cat02"}; }
@@ -44,13 +49,20 @@ std::string to_string(Adaptation adaptation) {
     return "none";
 }
 
+bool can_adapt(Adaptation adaptation, const glm::dvec3 &from_white) {
+    if (adaptation == Adaptation::none)
+        return true;
+    const glm::dvec3 from = cones_of(adaptation) * from_white;
+    return from.x > 0 && from.y > 0 && from.z > 0;
+}
+
 glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white,
                              const glm::dvec3 &to_white) {
     if (adaptation == Adaptation::none)
         return glm::dmat3(1.0);
-    const glm::dmat3 cones = adaptation == Adaptation::bradford ? bradford() : cat02();
+    const glm::dmat3 cones = cones_of(adaptation);
     const glm::dvec3 from = cones * from_white, to = cones * to_white;
-    if (!(from.x > 0 && from.y > 0 && from.z > 0))
+    if (!can_adapt(adaptation, from_white))
         throw Error({"no eye can adapt to this lamp: a cone signal of its white is not positive",
                      "adapt", "expected the adaptation none for so narrow a lamp"});
     glm::dmat3 scale(0.0);

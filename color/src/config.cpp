@@ -107,6 +107,10 @@ void check(const std::vector<LampWhite> &lamps) {
         const std::string where = "lamps." + std::to_string(i);
         if (lamps[i].name.empty())
             throw Error({"the lamp has no name", where, "expected a name such as D65"});
+        const glm::dvec3 &white = lamps[i].white_xyz;
+        if (!(white.y > 0) || !std::isfinite(white.x + white.y + white.z))
+            throw Error({"the lamp '" + lamps[i].name + "' has no white", where,
+                         "expected finite X, Y and Z with Y greater than 0"});
         for (std::size_t j = 0; j < i; ++j)
             if (lamps[j].name == lamps[i].name)
                 throw Error({"the lamp '" + lamps[i].name + "' is named twice", where,
@@ -122,9 +126,10 @@ OCIO::ConstConfigRcPtr make_config(const std::vector<LampWhite> &lamps) {
     add_space(*config, kLinear, "Linear light, primaries of Rec. 709", matrix(xyz_from_srgb()));
     for (const LampWhite &lamp : lamps)
         for (const Adaptation adapt : {Adaptation::none, Adaptation::bradford, Adaptation::cat02})
-            add_space(*config, color_space_name(lamp.name, adapt),
-                      "XYZ under " + lamp.name + ", adaptation " + to_string(adapt),
-                      matrix(adaptation_matrix(adapt, lamp.white_xyz, srgb_white())));
+            if (can_adapt(adapt, lamp.white_xyz))
+                add_space(*config, color_space_name(lamp.name, adapt),
+                          "XYZ under " + lamp.name + ", adaptation " + to_string(adapt),
+                          matrix(adaptation_matrix(adapt, lamp.white_xyz, srgb_white())));
     for (const std::string &view : view_names())
         add_view(*config, view);
     config->setRole(OCIO::ROLE_SCENE_LINEAR, kLinear);
@@ -262,6 +267,7 @@ std::string DisplayConfig::text() const {
 void DisplayConfig::save(const std::filesystem::path &path) const { write_file(path, text()); }
 
 Image display(const Image &xyz, const glm::dvec3 &lamp_white_xyz, const DisplayOptions &options) {
+    adaptation_matrix(options.adapt, lamp_white_xyz, srgb_white()); // its error says more
     return DisplayConfig({{"lamp", lamp_white_xyz}}).display(xyz, "lamp", options);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "tsuya/color/measured_spectrum.h"
 #include "tsuya/color/observer.h"
 #include "tsuya/color/spectrum_file.h"
 #include "tsuya/color/srgb.h"
@@ -88,13 +89,14 @@ double reflectance_of(double k_over_s) {
     return 1 / (1 + k_over_s + std::sqrt(k_over_s * (k_over_s + 2)));
 }
 
-Dye find_dye(std::string_view name, const std::string &where, bool any_spec) {
+Dye recipe_of(std::string_view name, const std::string &where, bool any_spec) {
     for (Dye &d : dyes())
         if (name == d.name)
             return std::move(d);
     throw Error({"there is no dye '" + std::string(name) + "'", where,
                  accepted_names(name, dye_names()) +
-                     (any_spec ? "; or #rrggbb, or a file that ends in .csv" : "")});
+                     (any_spec ? "; or #rrggbb, or a file that ends in " + spectrum_file_endings()
+                               : std::string())});
 }
 
 Spectrum dyed(const Dye &dye) {
@@ -119,24 +121,33 @@ std::vector<std::string> dye_names() {
     return names;
 }
 
-Spectrum dye(std::string_view name) { return dyed(find_dye(name, "dye", false)); }
+Spectrum dye(std::string_view name) { return dyed(recipe_of(name, "dye", false)); }
 
 std::string dye_description(std::string_view name) {
-    return find_dye(name, "dye", false).description;
+    return recipe_of(name, "dye", false).description;
 }
 
 void check_dye_spec(const std::string &spec, const std::string &where) {
-    if (std::filesystem::path(spec).extension() != ".csv" || spec.starts_with('#'))
+    if (spec.starts_with('#') || !parse_spectrum_file_spec(spec))
         parse_dye(spec, {}, where);
+}
+
+NamedDye find_dye(const std::string &spec, const std::filesystem::path &folder,
+                  const std::string &where) {
+    if (spec.starts_with('#'))
+        return {.name = spec, .spectrum = reflectance_of_srgb(parse_srgb(spec, where), where)};
+    if (const std::optional<SpectrumFileSpec> file = parse_spectrum_file_spec(spec)) {
+        MeasuredSpectrum read = read_dye_file(folder / file->path, file->sample);
+        return {.name = spec,
+                .spectrum = std::move(read.spectrum),
+                .warnings = std::move(read.warnings)};
+    }
+    return {.name = spec, .spectrum = dyed(recipe_of(spec, where, true))};
 }
 
 Spectrum parse_dye(const std::string &spec, const std::filesystem::path &folder,
                    const std::string &where) {
-    if (spec.starts_with('#'))
-        return reflectance_of_srgb(parse_srgb(spec, where), where);
-    if (std::filesystem::path(spec).extension() == ".csv")
-        return read_spectrum_csv(folder / spec, {.low = 0.0, .high = 1.0});
-    return dyed(find_dye(spec, where, true));
+    return find_dye(spec, folder, where).spectrum;
 }
 
 } // namespace tsuya

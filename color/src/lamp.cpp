@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
+#include "planck.h"
 #include "tables.h"
+#include "tsuya/color/color_temperature.h"
+#include "tsuya/color/measured_spectrum.h"
 #include "tsuya/color/observer.h"
 #include "tsuya/color/spectrum_file.h"
 #include "tsuya/sdk/error.h"
@@ -17,16 +21,7 @@ constexpr const char *kEqualEnergy = "equal energy at every wavelength";
 
 // [CIE015] section 4.1.2, Eq. 4.1: 2848 K with c2 = 1.435e-2 m K as the CIE defined it in 1931,
 // which is 2856 K on today's temperature scale; 100 at 560 nm.
-Spectrum illuminant_a() {
-    constexpr double kC2OverTNm = 1.435e7 / 2848.0;
-    Spectrum s{{}, {}};
-    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
-        s.wavelength_nm.push_back(nm);
-        s.value.push_back(100.0 * std::pow(560.0 / nm, 5) * std::expm1(kC2OverTNm / 560.0) /
-                          std::expm1(kC2OverTNm / nm));
-    }
-    return s;
-}
+Spectrum illuminant_a() { return planck_spectrum(1.435e7 / 2848.0); }
 
 const tables::LampTable *find_table(std::string_view name) {
     const auto *found = std::find_if(std::begin(tables::kLamps), std::end(tables::kLamps),
@@ -36,7 +31,8 @@ const tables::LampTable *find_table(std::string_view name) {
 
 [[noreturn]] void throw_unknown(std::string_view name) {
     throw Error({"there is no lamp '" + std::string(name) + "'", "lamp",
-                 accepted_names(name, lamp_names()) + "; or a file that ends in .csv"});
+                 accepted_names(name, lamp_names()) + "; or a file that ends in " +
+                     spectrum_file_endings()});
 }
 
 } // namespace
@@ -75,25 +71,29 @@ std::string lamp_description(std::string_view name) {
 }
 
 void check_lamp_spec(const std::string &spec) {
-    if (std::filesystem::path(spec).extension() != ".csv")
+    if (!parse_spectrum_file_spec(spec))
         lamp_description(spec);
 }
 
+NamedLamp find_lamp(const std::string &spec, const std::filesystem::path &folder,
+                    const std::string &sample) {
+    const std::optional<SpectrumFileSpec> file = parse_spectrum_file_spec(spec);
+    if (!file)
+        return {
+            .name = spec, .spectrum = lamp(spec), .caption = spec + ": " + lamp_description(spec)};
+    MeasuredSpectrum read =
+        read_lamp_file(folder / file->path, file->sample.empty() ? sample : file->sample);
+    std::string caption = std::filesystem::path(spec).filename().string();
+    if (const auto t = color_temperature(chromaticity(white_of(read.spectrum))))
+        caption += ": " + std::to_string(std::lround(t->kelvin)) + " K";
+    return {.name = spec,
+            .spectrum = std::move(read.spectrum),
+            .caption = std::move(caption),
+            .warnings = std::move(read.warnings)};
+}
+
 Spectrum parse_lamp(const std::string &spec, const std::filesystem::path &folder) {
-    const std::filesystem::path path = folder / spec;
-    if (path.extension() != ".csv")
-        return lamp(spec);
-    Spectrum s = read_spectrum_csv(path);
-    const bool visible = [&] {
-        for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm)
-            if (s.at(nm) > 0 && color_matching(Observer::cie1931, nm).y > 0)
-                return true;
-        return false;
-    }();
-    if (!visible)
-        throw Error({"the lamp has no visible power", path.string(),
-                     "expected positive power between 360 and 830 nm"});
-    return s;
+    return find_lamp(spec, folder).spectrum;
 }
 
 } // namespace tsuya

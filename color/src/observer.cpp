@@ -1,11 +1,41 @@
 #include "tsuya/color/observer.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include <glm/common.hpp>
 
 #include "tables.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
+namespace {
+
+/// Whole nanometres and all samples between them, each once, in order.
+std::vector<double> integration_nodes(const Spectrum &lamp, std::span<const double> more_nm) {
+    std::vector<double> nodes;
+    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm)
+        nodes.push_back(nm);
+    for (const std::span<const double> samples :
+         {std::span<const double>(lamp.wavelength_nm), more_nm})
+        for (const double nm : samples)
+            if (nm > kObserverFirstNm && nm < kObserverLastNm && nm != std::floor(nm))
+                nodes.push_back(nm);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+}
+
+glm::dvec3 matching_between(Observer observer, double nm) {
+    const double floor_nm = std::floor(nm);
+    const auto whole_nm = static_cast<int>(floor_nm);
+    const glm::dvec3 below = color_matching(observer, whole_nm);
+    return nm == floor_nm ? below
+                          : glm::mix(below, color_matching(observer, whole_nm + 1), nm - floor_nm);
+}
+
+} // namespace
 
 glm::dvec3 color_matching(Observer observer, int wavelength_nm) {
     if (wavelength_nm < kObserverFirstNm || wavelength_nm > kObserverLastNm)
@@ -15,18 +45,40 @@ glm::dvec3 color_matching(Observer observer, int wavelength_nm) {
     return {row[0], row[1], row[2]};
 }
 
-glm::dvec3 xyz_of(const Spectrum &lamp, const Spectrum &reflectance, Observer observer) {
-    glm::dvec3 sum(0.0);
+std::vector<ColorWeight> color_weights(const Spectrum &lamp, Observer observer,
+                                       std::span<const double> more_nm) {
+    const std::vector<double> nodes = integration_nodes(lamp, more_nm);
+    std::vector<ColorWeight> weights;
+    weights.reserve(nodes.size());
+    double peak = 0;
+    for (const double nm : nodes) {
+        weights.push_back({nm, glm::dvec3(lamp.at(nm))});
+        peak = std::max(peak, weights.back().xyz.y);
+    }
+    // Powers near the ends of the range of a double would overflow or vanish in the sums.
+    constexpr double kLargest = 1e100;
+    const double unit = peak > kLargest || (peak > 0 && peak < 1 / kLargest) ? peak : 1;
     double white_y = 0;
-    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
-        const glm::dvec3 weight = lamp.at(nm) * color_matching(observer, nm);
-        sum += reflectance.at(nm) * weight;
-        white_y += weight.y;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        // The outermost whole nanometres stand for a nanometre each, as in the sum at 1 nm.
+        const double before = i > 0 ? nodes[i - 1] : nodes.front() - 1;
+        const double after = i + 1 < nodes.size() ? nodes[i + 1] : nodes.back() + 1;
+        weights[i].xyz *= 0.5 * (after - before) / unit * matching_between(observer, nodes[i]);
+        white_y += weights[i].xyz.y;
     }
     if (!(white_y > 0))
         throw Error({"the lamp has no visible power", "lamp",
                      "expected a spectrum with positive power between 360 and 830 nm"});
-    return sum / white_y;
+    for (ColorWeight &weight : weights)
+        weight.xyz /= white_y;
+    return weights;
+}
+
+glm::dvec3 xyz_of(const Spectrum &lamp, const Spectrum &reflectance, Observer observer) {
+    glm::dvec3 sum(0.0);
+    for (const ColorWeight &weight : color_weights(lamp, observer, reflectance.wavelength_nm))
+        sum += reflectance.at(weight.wavelength_nm) * weight.xyz;
+    return sum;
 }
 
 glm::dvec3 white_of(const Spectrum &lamp, Observer observer) {

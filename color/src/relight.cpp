@@ -65,47 +65,30 @@ void check(const SpectralImage &transport, std::span<const Spectrum> lamps,
 
 } // namespace
 
-namespace {
-
-// \param add adds to a matrix what a wavelength brings to each channel
-template <class Add>
-std::vector<glm::dvec3> integrated(const Spectrum &lamp, std::size_t channels, Observer observer,
-                                   const Add &add) {
-    std::vector<glm::dvec3> matrix(channels, glm::dvec3(0.0));
-    double white_y = 0;
-    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
-        const glm::dvec3 weight = lamp.at(nm) * color_matching(observer, nm);
-        white_y += weight.y;
-        add(nm, weight, matrix);
-    }
-    if (!(white_y > 0))
-        throw Error({"the lamp has no visible power", "lamp",
-                     "expected a spectrum with positive power between 360 and 830 nm"});
-    for (glm::dvec3 &xyz : matrix)
-        xyz /= white_y;
-    return matrix;
-}
-
-} // namespace
-
 std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
                                     Observer observer) {
-    return integrated(lamp, static_cast<std::size_t>(basis.count), observer,
-                      [&](int nm, const glm::dvec3 &weight, std::vector<glm::dvec3> &matrix) {
-                          for (int k = 0; k < basis.count; ++k)
-                              matrix[static_cast<std::size_t>(k)] += basis.weight(k, nm) * weight;
-                      });
+    std::vector<glm::dvec3> matrix(static_cast<std::size_t>(basis.count), glm::dvec3(0.0));
+    for (const ColorWeight &weight : color_weights(lamp, observer))
+        for (int k = 0; k < basis.count; ++k)
+            matrix[static_cast<std::size_t>(k)] +=
+                basis.weight(k, weight.wavelength_nm) * weight.xyz;
+    return matrix;
 }
 
 std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const DyeDepths &depths,
                                     Observer observer) {
+    std::vector<double> samples_nm;
+    for (const DyeVariable &dye : depths.dyes)
+        samples_nm.insert(samples_nm.end(), dye.dye.wavelength_nm.begin(),
+                          dye.dye.wavelength_nm.end());
+    std::vector<glm::dvec3> matrix(depths.node.size(), glm::dvec3(0.0));
     const DepthWeights weights(depths);
-    return integrated(lamp, depths.node.size(), observer,
-                      [&](int nm, const glm::dvec3 &weight, std::vector<glm::dvec3> &matrix) {
-                          const std::vector<double> of_channels = weights.at_nm(nm);
-                          for (std::size_t k = 0; k < matrix.size(); ++k)
-                              matrix[k] += of_channels[k] * weight;
-                      });
+    for (const ColorWeight &weight : color_weights(lamp, observer, samples_nm)) {
+        const std::vector<double> of_channels = weights.at_nm(weight.wavelength_nm);
+        for (std::size_t k = 0; k < matrix.size(); ++k)
+            matrix[k] += of_channels[k] * weight.xyz;
+    }
+    return matrix;
 }
 
 Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,

@@ -1,14 +1,12 @@
 #include "tsuya/color/spectrum_file.h"
 
-#include <charconv>
-#include <cmath>
-#include <optional>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <limits>
 #include <sstream>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
+#include "spectra/spectral_text.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -17,128 +15,87 @@
 namespace tsuya {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
-constexpr const char *kColumns = "expected two columns: wavelength_nm,value";
+using Reader = SpectrumFile (*)(std::string_view bytes, const std::string &name);
 
-/// A field with the column, counted from 1, where it begins.
-struct Field {
-    std::string_view text;
-    std::size_t column = 1;
+struct Format {
+    std::string_view ending;
+    Reader read;
 };
 
-std::vector<Field> split(std::string_view line) {
-    std::vector<Field> fields;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        std::string_view text = line.substr(begin, end - begin);
-        const std::size_t first = std::min(text.find_first_not_of(kBlank), text.size());
-        text.remove_prefix(first);
-        text = text.substr(0, text.find_last_not_of(kBlank) + 1);
-        fields.push_back({text, begin + first + 1});
-        begin = end + 1;
-    }
-    return fields;
+SpectrumFile read_text_table(std::string_view bytes, const std::string &name) {
+    return parse_spectral_text(decode_text(bytes, name), name);
 }
 
-std::optional<double> number(std::string_view text) {
-    double value = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
-}
-
-std::string as_text(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
-/// Takes line after line and keeps what is wrong with them.
-class Reader {
-  public:
-    Reader(std::string path, ValueRange range) : path_(std::move(path)), range_(range) {}
-
-    void read(std::string_view line) {
-        ++line_;
-        const std::size_t first = line.find_first_not_of(kBlank);
-        if (first == std::string_view::npos || line[first] == '#')
-            return;
-        const std::vector<Field> fields = split(line);
-        const bool may_be_header = !std::exchange(begun_, true);
-        if (may_be_header && fields.size() == 2 && !number(fields[0].text) &&
-            !number(fields[1].text) && !fields[0].text.empty())
-            return;
-        if (fields.size() != 2)
-            return add("the row has " + detail::counted(fields.size(), "column"), 1, kColumns);
-        const auto wavelength_nm = number(fields[0].text), value = number(fields[1].text);
-        if (!wavelength_nm || !value) {
-            const Field &bad = wavelength_nm ? fields[1] : fields[0];
-            return add("'" + std::string(bad.text) + "' is not a number", bad.column,
-                       "expected a finite number such as 560 or 0.25");
-        }
-        if (!check(*wavelength_nm, fields[0], *value, fields[1]))
-            return;
-        spectrum_.wavelength_nm.push_back(*wavelength_nm);
-        spectrum_.value.push_back(*value);
-    }
-
-    Spectrum finish() {
-        if (problems_.empty() && spectrum_.value.empty())
-            problems_.add({"the file holds no spectrum", path_, kColumns});
-        problems_.throw_if_any();
-        return std::move(spectrum_);
-    }
-
-    bool full() const { return problems_.full(); }
-
-  private:
-    bool check(double wavelength_nm, const Field &at, double value, const Field &value_at) {
-        const std::size_t before = problems_.all().size();
-        if (wavelength_nm <= 0)
-            add("the wavelength is " + as_text(wavelength_nm) + " nm", at.column,
-                "expected a wavelength greater than 0");
-        else if (!spectrum_.wavelength_nm.empty() &&
-                 wavelength_nm <= spectrum_.wavelength_nm.back())
-            add("the wavelength " + as_text(wavelength_nm) + " nm does not increase", at.column,
-                "expected more than " + as_text(spectrum_.wavelength_nm.back()));
-        if (value < range_.low || value > range_.high)
-            add("the value is " + as_text(value), value_at.column,
-                range_.high < ValueRange{}.high
-                    ? "expected " + as_text(range_.low) + " to " + as_text(range_.high)
-                    : "expected " + as_text(range_.low) + " or more");
-        return problems_.all().size() == before;
-    }
-
-    void add(std::string what, std::size_t column, std::string accepted) {
-        problems_.add({std::move(what),
-                       path_ + ':' + std::to_string(line_) + ':' + std::to_string(column),
-                       std::move(accepted)});
-    }
-
-    std::string path_;
-    ValueRange range_;
-    std::size_t line_ = 0;
-    bool begun_ = false;
-    Spectrum spectrum_{{}, {}};
-    Problems problems_;
+constexpr std::array kFormats{
+    Format{".csv", read_text_table},
+    Format{".txt", read_text_table},
+    Format{".tsv", read_text_table},
 };
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char &c : result)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+const Format *format_of(std::string_view file) {
+    const std::string name = lower(file);
+    const auto found = std::ranges::find_if(
+        kFormats, [&](const Format &format) { return name.ends_with(format.ending); });
+    return found == kFormats.end() ? nullptr : &*found;
+}
 
 } // namespace
 
-Spectrum read_spectrum_csv(const std::filesystem::path &path, const ValueRange &range) {
-    const std::string text = read_text(path);
-    Reader reader(path.string(), range);
-    std::istringstream lines(text);
-    for (std::string line; !reader.full() && std::getline(lines, line);)
-        reader.read(line);
-    return reader.finish();
+std::string spectrum_file_endings() {
+    std::string text;
+    for (const Format &format : kFormats)
+        text += (text.empty() ? "" : ", ") + std::string(format.ending);
+    return text;
+}
+
+std::optional<SpectrumFileSpec> parse_spectrum_file_spec(std::string_view text) {
+    if (format_of(text))
+        return SpectrumFileSpec{std::filesystem::path(text), {}};
+    for (std::size_t colon = text.find(':'); colon != text.npos; colon = text.find(':', colon + 1))
+        if (format_of(text.substr(0, colon)))
+            return SpectrumFileSpec{std::filesystem::path(text.substr(0, colon)),
+                                    std::string(text.substr(colon + 1))};
+    return std::nullopt;
+}
+
+SpectrumFile read_spectrum_file(const std::filesystem::path &path) {
+    const Format *const format = format_of(path.string());
+    if (!format)
+        throw Error({"the file has an ending that no format of spectra has", path.string(),
+                     "expected one of: " + spectrum_file_endings()});
+    return format->read(read_file(path), path.string());
+}
+
+const SpectrumSample &find_sample(const SpectrumFile &file, const std::string &name,
+                                  const std::string &where) {
+    if (name.empty() && file.samples.size() == 1)
+        return file.samples.front();
+    std::vector<std::string> names;
+    for (const SpectrumSample &sample : file.samples) {
+        if (!name.empty() && lower(sample.name) == lower(name))
+            return sample;
+        names.push_back(sample.name);
+    }
+    constexpr std::size_t kShown = 30;
+    const std::string known =
+        names.size() > kShown ? "expected the name of one of them" : accepted_names(name, names);
+    if (name.empty())
+        throw Error({"the file holds " + detail::counted(names.size(), "spectrum", "spectra"),
+                     where, known + ", as FILE:NAME"});
+    throw Error({"the file holds no spectrum '" + name + "'", where, known});
 }
 
 void write_spectrum_csv(const std::filesystem::path &path, const Spectrum &spectrum,
                         const std::string &comment) {
-    check_spectrum(spectrum, std::numeric_limits<double>::lowest(), ValueRange{}.high,
-                   path.string());
+    check_spectrum(spectrum, std::numeric_limits<double>::lowest(),
+                   std::numeric_limits<double>::max(), path.string());
     std::ostringstream text;
     text.precision(std::numeric_limits<double>::max_digits10);
     std::istringstream lines(comment);

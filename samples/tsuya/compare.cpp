@@ -39,13 +39,15 @@ void print(const DyedDifferences &dyed) {
 struct Compare final : Command {
     std::filesystem::path transport{}, output{}, report{};
     std::vector<std::string> lamps{}, dyes{};
+    std::string column{};
     bool json = false;
     int threads = 0;
     LookOptions look{};
 
     void options(Options &o) override {
         o.argument(&transport, "OUT.exr", "light transport from render or tryon").required();
-        o.option("--lamps", &lamps, "A,B,...", "two or more of `tsuya list lamps`, or F.csv")
+        o.option("--lamps", &lamps, "A,B,...",
+                 "two or more of `tsuya list lamps`, or files of spectra")
             .with_commas()
             .at_least(2)
             .check([this] { scene::check_lamps(lamps); })
@@ -56,6 +58,7 @@ struct Compare final : Command {
              "list dyes`, #rrggbb, F.csv")
             .with_commas()
             .check([this] { scene::check_dyes(dyes); });
+        add_column(o, column);
         o.option("-o,--output", &output, "SHEET.png", "the pictures side by side")
             .required()
             .result({".png"});
@@ -68,12 +71,12 @@ struct Compare final : Command {
         o.notes("Prints CIEDE2000 between the lamps, each picture adapted to D65 by CAT02.");
     }
 
-    Status run(Console &) override {
+    Status run(Console &console) override {
         scene::check_output_file(output);
         if (!report.empty())
             scene::check_output_file(report);
         std::vector<DyedDifferences> differences;
-        detail::run_with_threads(threads, [&] { differences = compare(); });
+        detail::run_with_threads(threads, [&] { differences = compare(console); });
         const Json numbers = json_of_differences(differences);
         if (!report.empty())
             write_json(report, numbers);
@@ -86,9 +89,11 @@ struct Compare final : Command {
     }
 
     /// Draws the sheet.
-    std::vector<DyedDifferences> compare() const {
+    std::vector<DyedDifferences> compare(Console &console) const {
         const DisplayOptions display = look.look();
-        const std::vector<NamedLamp> named = scene::parse_lamps(lamps);
+        const std::vector<NamedLamp> named = scene::parse_lamps(lamps, {}, column);
+        for (const NamedLamp &lamp : named)
+            console.warnings(lamp.warnings);
         SpectralImage image = read_spectral_exr(transport);
         std::vector<DyedDifferences> differences;
         Sheet sheet{.columns = static_cast<int>(named.size())};
@@ -102,7 +107,7 @@ struct Compare final : Command {
                 {dye, compare_lamps(image, named, {.exposure_stops = display.exposure_stops})});
             for (const NamedLamp &lamp : named)
                 sheet.pictures.push_back(
-                    {scene::picture_under(image, {&lamp, 1}, display), scene::caption_of(lamp)});
+                    {scene::picture_under(image, {&lamp, 1}, display), lamp.caption});
         }
         const Image drawn = draw_sheet(sheet);
         scene::prepare_output_file(output);

@@ -174,6 +174,11 @@ void Console::warnings(const Error &error) {
         warning(problem);
 }
 
+void Console::warnings(const std::vector<std::string> &texts) {
+    for (const std::string &text : texts)
+        warning(text);
+}
+
 void Console::warnings(const garment::Report &report, const std::string &file) {
     for (const garment::Finding &finding : report.findings)
         if (finding.severity == garment::Severity::warning)

@@ -60,6 +60,7 @@ class Console {
     void warning(std::string_view text);
     void warning(const Problem &problem);
     void warnings(const Error &error);
+    void warnings(const std::vector<std::string> &texts);
     /// The findings that may show in the picture.
     void warnings(const garment::Report &report, const std::string &file);
     /// Ends a line that a bar has begun.

@@ -60,6 +60,12 @@ TableCache cache_unless(bool no_cache) {
     return {.folder = no_cache ? std::filesystem::path() : user_cache_folder()};
 }
 
+void add_column(Options &options, std::string &column) {
+    options.option("--column", &column, "NAME",
+                   "column or sample of files that hold several spectra; FILE:NAME names one of a "
+                   "single file");
+}
+
 void add_threads(Options &options, int &threads) {
     options.option("--threads", &threads, "N", "number of threads; 0 uses all processors")
         .range(0, 4096);

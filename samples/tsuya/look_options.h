@@ -40,6 +40,9 @@ std::optional<garment::UpAxis> stated_up(const std::string &up);
 /// The names of models, for Option::one_of. \param more one more value, where not empty
 std::vector<std::string> model_choices(const std::string &more = {});
 
+/// `--column`, which spectrum files with several have
+void add_column(Options &options, std::string &column);
+
 /// `--threads`, 0 for all processors
 void add_threads(Options &options, int &threads);
 

@@ -16,20 +16,22 @@ namespace {
 struct Relight final : Command {
     std::filesystem::path transport{}, output{};
     std::vector<std::string> lamps{}, dyes{};
+    std::string column{};
     int bits = 8, threads = 0;
     LookOptions look{};
 
     void options(Options &o) override {
         o.argument(&transport, "OUT.exr", "light transport from render or tryon").required();
         o.option("--lamp", &lamps, "LAMP",
-                 "name of `tsuya list lamps` or F.csv for all light groups; GROUP=LAMP for one "
-                 "of them; may be repeated")
+                 "name of `tsuya list lamps` or a file of spectra, for all light groups; "
+                 "GROUP=LAMP for one of them; may be repeated")
             .check([this] { scene::check_group_lamps(lamps); })
             .required();
         o.option(
             "--dye", &dyes, "DYE",
             "another dye where it was left open: a name of `tsuya list dyes`, #rrggbb or F.csv; "
             "FABRIC=DYE where several are open; may be repeated");
+        add_column(o, column);
         o.option("-o,--output", &output, "OUT.png", "the picture").required().result({".png"});
         o.option("--bits", &bits, "N", "bits of a sample of the PNG").one_of({"8", "16"});
         look.add_to(o);
@@ -37,14 +39,17 @@ struct Relight final : Command {
         o.example("tsuya relight dress.exr --lamp key=A --lamp fill=D65 -o dress.png");
     }
 
-    Status run(Console &) override {
+    Status run(Console &console) override {
         scene::check_output_file(output);
         const DisplayOptions display = look.look();
         detail::run_with_threads(threads, [&] {
             SpectralImage image = read_spectral_exr(transport);
             scene::show_dyes(image, dyes);
-            const Image picture =
-                scene::picture_under(image, scene::parse_group_lamps(lamps, image.groups), display);
+            const std::vector<NamedLamp> named =
+                scene::parse_group_lamps(lamps, image.groups, {}, column);
+            for (const NamedLamp &lamp : named)
+                console.warnings(lamp.warnings);
+            const Image picture = scene::picture_under(image, named, display);
             scene::prepare_output_file(output);
             write_png(output, picture, bits);
         });

@@ -117,6 +117,7 @@ struct Render final : Command {
                                                      static_cast<std::size_t>(frames.value_or(1)));
         for (const scene::MeshReport &mesh : built.reports)
             console.warnings(mesh.report, mesh.mesh.string());
+        console.warnings(file.warnings);
         if (explains) {
             explain_plan(built, settings);
             return kDone;

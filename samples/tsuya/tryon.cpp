@@ -7,6 +7,7 @@
 #include "grain_option.h"
 #include "look_options.h"
 #include "same_file.h"
+#include "tsuya/color/spectrum_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/detail/threads.h"
@@ -86,12 +87,12 @@ struct TryOn final : Command {
             .needs(pattern);
         dye = &o.option("--dye", &job.dyes, "A,B,...",
                         "dyes, which share one render where no print or third colour stands beside "
-                        "them: names of `tsuya list dyes`, #rrggbb, F.csv; where "
+                        "them: names of `tsuya list dyes`, #rrggbb, files of spectra; where "
                         "none is given, a dyed fabric has its own")
                    .with_commas()
                    .check([this] { scene::check_dyes(job.dyes); });
         o.option("--lamps", &job.lamps, "A,B,...",
-                 "lamps, one picture each: names of `tsuya list lamps`, or F.csv")
+                 "lamps, one picture each: names of `tsuya list lamps`, or files of spectra")
             .with_commas()
             .check([this] { scene::check_lamps(job.lamps); });
         o.option("--azimuth", &job.azimuth_deg, "DEGREES",
@@ -162,8 +163,10 @@ struct TryOn final : Command {
         std::vector<std::filesystem::path> read{job.garment, job.body, job.fabric, job.back,
                                                 job.pattern};
         read.insert(read.end(), job.frames.begin(), job.frames.end());
-        read.insert(read.end(), job.dyes.begin(), job.dyes.end());
-        read.insert(read.end(), job.lamps.begin(), job.lamps.end());
+        for (const std::vector<std::string> &specs : {job.dyes, job.lamps})
+            for (const std::string &spec : specs)
+                if (const auto file = parse_spectrum_file_spec(spec))
+                    read.push_back(file->path);
         for (const scene::PanelCloth &panel : job.panels)
             read.insert(read.end(), {panel.fabric, panel.back});
         for (const std::filesystem::path &result : scene::replaced_files(job))

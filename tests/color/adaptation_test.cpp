@@ -61,6 +61,9 @@ TEST(Adaptation, RefusesNarrowLamp) {
     const glm::dvec3 violet = xyz_of_chromaticity({0.1741, 0.0050}); // 380 nm alone
     test::expect_problem([&] { adaptation_matrix(Adaptation::bradford, violet, srgb_white()); },
                          "adapt", "not positive");
+    EXPECT_FALSE(can_adapt(Adaptation::bradford, violet));
+    EXPECT_TRUE(can_adapt(Adaptation::none, violet));
+    EXPECT_TRUE(can_adapt(Adaptation::cat02, white_of(lamp("A"))));
 }
 
 } // namespace

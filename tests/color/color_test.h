@@ -69,4 +69,10 @@ inline std::filesystem::path outside_data() {
     return folder ? folder : "";
 }
 
+/// The folder of small inputs that show a kind of fault, or an empty path.
+inline std::filesystem::path outside_cases() {
+    const char *folder = std::getenv("TSUYA_TEST_CASES");
+    return folder ? folder : "";
+}
+
 } // namespace tsuya::test

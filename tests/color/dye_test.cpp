@@ -89,9 +89,9 @@ TEST(Dye, RefusesWrongSpecs) {
     test::expect_problem([] { parse_dye("#12", {}, "fabrics.satin.dye"); }, "fabrics.satin.dye",
                          "not an sRGB colour");
     const test::Folder folder;
-    const auto path = folder.write("bright.csv", "400,0.2\n700,60\n");
+    const auto path = folder.write("bright.csv", "400,0.2\n700,600\n");
     test::expect_problem([&] { parse_dye(path.string()); }, path.string() + ":2:5",
-                         "expected 0 to 1");
+                         "the value is 600; expected 0 to 100 percent");
 }
 
 } // namespace

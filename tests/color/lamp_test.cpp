@@ -63,15 +63,27 @@ TEST(Lamp, IsConstantBeyondItsTable) {
 TEST(Lamp, RefusesUnknownNameWithSuggestion) {
     test::expect_problem([] { lamp("D66"); }, "lamp", "did you mean D65?");
     test::expect_problem([] { lamp_description("HP9"); }, "lamp", "expected one of: A, D50");
-    test::expect_problem([] { parse_lamp("led.txt"); }, "lamp", "no lamp 'led.txt'");
+    test::expect_problem([] { parse_lamp("led.doc"); }, "lamp", "no lamp 'led.doc'");
 }
 
 TEST(Lamp, ReadsFile) {
     const test::Folder folder;
-    folder.write("mine.csv", "# a lamp of two lines\nwavelength_nm,value\n500,1\n600,3\n");
-    EXPECT_NEAR(parse_lamp("mine.csv", folder / "").at(550), 2.0, 1e-12);
-    const auto dark = folder.write("dark.csv", "400,0\n700,0\n");
-    test::expect_problem([&] { parse_lamp(dark.string()); }, dark.string(), "no visible power");
+    folder.write("A.csv", "# two ends of a slope\nwavelength_nm,value\n400,1\n700,3\n");
+    const NamedLamp read = find_lamp("A.csv", folder / "");
+    EXPECT_NEAR(read.spectrum.at(550), 2.0, 1e-12);
+    EXPECT_EQ(read.warnings.size(), 1u); // steps of 300 nm
+    // Called by its own name, with its own colour temperature: it is not the standard A.
+    EXPECT_EQ(read.caption, "A.csv: 3836 K");
+    EXPECT_EQ(find_lamp("A").caption, "A: incandescent, 2856 K");
+}
+
+TEST(Lamp, TakesTheColumnThatIsNamed) {
+    const test::Folder folder;
+    folder.write("two.csv", "nm,D65,old\n400,1,3\n550,2,2\n700,3,1\n");
+    EXPECT_EQ(find_lamp("two.csv:OLD", folder / "").spectrum.at(400), 3.0);
+    EXPECT_EQ(find_lamp("two.csv", folder / "", "d65").spectrum.at(400), 1.0);
+    test::expect_problem([&] { find_lamp("two.csv", folder / ""); }, (folder / "two.csv").string(),
+                         "holds 2 spectra; expected one of: D65, old, as FILE:NAME");
 }
 
 } // namespace

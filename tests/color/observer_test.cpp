@@ -1,5 +1,8 @@
 #include "tsuya/color/observer.h"
 
+#include <cmath>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "color_test.h"
@@ -66,6 +69,62 @@ TEST(Observer, ChromaticityGoesBothWays) {
     EXPECT_NEAR(back.x, xy.x, 1e-12);
     EXPECT_NEAR(back.y, xy.y, 1e-12);
     EXPECT_EQ(chromaticity(glm::dvec3(0.0)), glm::dvec2(0.0));
+}
+
+TEST(Observer, WholeNanometresAreTheSumAt1Nm) {
+    const Spectrum lit = lamp("HP4");
+    for (const Observer observer : {Observer::cie1931, Observer::cie1964}) {
+        glm::dvec3 sum(0.0);
+        for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm)
+            sum += lit.at(nm) * color_matching(observer, nm);
+        const glm::dvec3 white = white_of(lit, observer);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(white[c], sum[c] / sum.y, 1e-14);
+    }
+}
+
+TEST(Observer, LinesBetweenNanometresCountInFull) {
+    // A wide line at 450 nm, and one of a tenth of a nanometre at 589.25 with the same energy.
+    const Spectrum lines{{440, 450, 460, 589.2, 589.25, 589.3}, {0, 1, 0, 0, 200, 0}};
+    const glm::dvec3 blue = color_matching(Observer::cie1931, 450);
+    const glm::dvec3 yellow = glm::mix(color_matching(Observer::cie1931, 589),
+                                       color_matching(Observer::cie1931, 590), 0.25);
+    glm::dvec3 wide(0.0);
+    for (int nm = 441; nm < 460; ++nm)
+        wide += (1 - std::abs(nm - 450) / 10.0) * color_matching(Observer::cie1931, nm);
+    const glm::dvec3 sum = wide + 10.0 * yellow, white = white_of(lines);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(white[c], sum[c] / sum.y, 2e-4) << blue[c];
+    // The same at a tenth of a nanometre throughout, summed without the library.
+    Spectrum fine{{}, {}};
+    for (int i = 0; i <= 9400; ++i) {
+        fine.wavelength_nm.push_back(360 + 0.05 * i);
+        fine.value.push_back(lines.at(360 + 0.05 * i));
+    }
+    EXPECT_LT(glm::distance(white, white_of(fine)), 2e-4 * glm::length(white));
+}
+
+TEST(Observer, AnyUnitOfPowerWillDo) {
+    const Spectrum lit = lamp("FL11");
+    for (const double unit : {1e-305, 1e-150, 1e150, 1e305}) {
+        Spectrum scaled = lit;
+        for (double &v : scaled.value)
+            v *= unit;
+        EXPECT_LT(glm::distance(white_of(scaled), white_of(lit)), 1e-12) << unit;
+    }
+}
+
+TEST(Observer, StepsOfAReflectanceAreMet) {
+    // White beyond 560.5 nm, black below, within a hundredth of a nanometre.
+    const Spectrum step{{560.495, 560.505}, {0, 1}};
+    const Spectrum lit = lamp("E");
+    double below = 0, all = 0;
+    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
+        const double y = color_matching(Observer::cie1931, nm).y;
+        all += y;
+        below += nm <= 560 ? y : 0;
+    }
+    EXPECT_NEAR(xyz_of(lit, step).y, 1 - below / all, 1e-4);
 }
 
 TEST(Observer, RefusesDarkLamp) {

@@ -30,8 +30,8 @@ TEST(Lamps, AreNamedAfterTheirFiles) {
     const std::vector<NamedLamp> lamps = parse_lamps(Texts{"D65", "shop.csv"}, scratch.folder());
     ASSERT_EQ(lamps.size(), 2u);
     EXPECT_EQ(lamps[1].name, "shop");
-    EXPECT_EQ(caption_of(lamps[1]), "shop");
-    EXPECT_NE(caption_of(lamps[0]).find("6504 K"), std::string::npos);
+    EXPECT_EQ(lamps[1].caption.find("shop.csv: "), 0u) << lamps[1].caption;
+    EXPECT_NE(lamps[0].caption.find("6504 K"), std::string::npos);
     EXPECT_NE(problem_of([] {
                   parse_lamps(Texts{"A", "A"});
               }).what.find("two lamps"),
@@ -76,7 +76,8 @@ TEST(Picture, OfAWhiteIsNeutralUnderDaylight) {
 
 TEST(FileStem, IsFitForAFileName) {
     EXPECT_EQ(file_stem_of("crimson"), "crimson");
-    EXPECT_EQ(file_stem_of("my/own.csv"), "own");
+    EXPECT_EQ(file_stem_of("my/own.CSV"), "own");
+    EXPECT_EQ(file_stem_of("my/own.csv:navy"), "own_navy");
     EXPECT_EQ(file_stem_of("#aabbcc"), "aabbcc");
     EXPECT_EQ(file_stem_of("a/b").find('/'), std::string::npos);
 }

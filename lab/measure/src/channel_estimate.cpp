@@ -59,6 +59,7 @@ class ChannelEstimator {
             estimate_.channel.lamp.push_back({.theta_i = reference.directions.theta_i,
                                               .phi_i = reference.directions.phi_i,
                                               .readings = reference.readings});
+        estimate_.warnings = standard_.warnings();
         return std::move(estimate_);
     }
 

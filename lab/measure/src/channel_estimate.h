@@ -11,6 +11,7 @@ namespace tsuya::lab {
 struct ChannelEstimate {
     ChannelMeasurement channel{};
     std::vector<LeftOutView> left_out{};
+    std::vector<std::string> warnings{}; ///< about the white standard
 };
 
 /// [Takeda] Eq. 2 for each view of the cloth. Throws Error where a direction of light has stray

@@ -225,6 +225,8 @@ SessionMeasurement measure_session(const Session &session, const MeasureSettings
         measured.channels.push_back(std::move(estimate.channel));
         measured.left_out.insert(measured.left_out.end(), estimate.left_out.begin(),
                                  estimate.left_out.end());
+        if (c == 0)
+            measured.warnings = std::move(estimate.warnings);
     }
     agree(measured);
     for (ChannelMeasurement &channel : measured.channels)

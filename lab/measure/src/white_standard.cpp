@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tsuya/color/spectrum_file.h"
+#include "tsuya/color/measured_spectrum.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
@@ -40,10 +40,13 @@ WhiteStandard::WhiteStandard(const RigWhite &white, const std::string &colour) {
     }
     const auto &file = std::get<std::filesystem::path>(white.rho_std);
     file_ = file.string();
-    if (read_file(file).find("theta_i_deg") != std::string::npos)
+    if (read_file(file).find("theta_i_deg") != std::string::npos) {
         table_ = read_reflectance_table(file);
-    else
-        reflectance_ = mean_reflectance(read_spectrum_csv(file, {.low = 0, .high = 1}), colour);
+        return;
+    }
+    MeasuredSpectrum read = read_dye_file(file);
+    reflectance_ = mean_reflectance(read.spectrum, colour);
+    warnings_ = std::move(read.warnings);
 }
 
 double WhiteStandard::brdf_per_sr(const DirectionPair &directions) const {

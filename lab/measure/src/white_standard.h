@@ -3,6 +3,7 @@
 /// The reflectance of the white standard.
 
 #include <string>
+#include <vector>
 
 #include "tsuya/lab/rig_file.h"
 #include "tsuya/sdk/directions.h"
@@ -17,6 +18,8 @@ class WhiteStandard {
     /// on, each 100 nm wide; others 400 to 700 nm. Throws Error at the file.
     WhiteStandard(const RigWhite &white, const std::string &colour);
 
+    /// About its spectrum, see read_dye_file.
+    const std::vector<std::string> &warnings() const { return warnings_; }
     bool is_table() const { return !table_.rows.empty(); }
     /// In 1/sr. Throws Error if the table has no row within half a degree of the directions.
     double brdf_per_sr(const DirectionPair &directions) const;
@@ -25,6 +28,7 @@ class WhiteStandard {
     double reflectance_ = 1;
     ReflectanceTable table_{};
     std::string file_{};
+    std::vector<std::string> warnings_{};
 };
 
 } // namespace tsuya::lab

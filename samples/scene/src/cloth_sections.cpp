@@ -26,7 +26,11 @@ std::optional<Spectrum> SceneReader::reflectance(const Section &section) {
 std::optional<Spectrum> SceneReader::dyed(const Section &section, const char *key) {
     std::optional<Spectrum> result;
     if (const auto spec = section.text(key))
-        note(section, key, [&] { result = parse_dye(*spec, folder_); });
+        note(section, key, [&] {
+            NamedDye dye = find_dye(*spec, folder_);
+            add_warnings(dye.warnings);
+            result = std::move(dye.spectrum);
+        });
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/relight.h"
+#include "tsuya/color/spectrum_file.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
@@ -24,6 +25,12 @@ NamedSpec split_spec(const std::string &spec) {
     return {spec.substr(0, equals), spec.substr(equals + 1)};
 }
 
+/// A lamp that is called as its files are.
+NamedLamp with_file_name(NamedLamp lamp) {
+    lamp.name = file_stem_of(lamp.name);
+    return lamp;
+}
+
 } // namespace
 
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
@@ -36,8 +43,9 @@ Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> l
 }
 
 std::string file_stem_of(const std::string &spec) {
-    const std::filesystem::path path(spec);
-    std::string stem = path.extension() == ".csv" ? path.stem().string() : spec;
+    std::string stem = spec;
+    if (const auto file = parse_spectrum_file_spec(spec))
+        stem = file->path.stem().string() + (file->sample.empty() ? "" : "_" + file->sample);
     std::erase(stem, '#');
     std::replace(stem.begin(), stem.end(), '/', '_');
     return stem;
@@ -56,11 +64,11 @@ void check_lamps(std::span<const std::string> specs) {
 }
 
 std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
-                                   const std::filesystem::path &folder) {
+                                   const std::filesystem::path &folder, const std::string &sample) {
     check_lamps(specs);
     std::vector<NamedLamp> lamps;
     for (const std::string &spec : specs)
-        lamps.push_back({file_stem_of(spec), parse_lamp(spec, folder)});
+        lamps.push_back(with_file_name(find_lamp(spec, folder, sample)));
     return lamps;
 }
 
@@ -81,7 +89,8 @@ void check_group_lamps(std::span<const std::string> specs) {
 
 std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
                                          std::span<const std::string> groups,
-                                         const std::filesystem::path &folder) {
+                                         const std::filesystem::path &folder,
+                                         const std::string &sample) {
     check_group_lamps(specs);
     std::vector<std::string> chosen(groups.size());
     std::string rest;
@@ -102,7 +111,7 @@ std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
         if (spec.empty())
             throw Error({"light group '" + groups[g] + "' has no lamp", "lamp",
                          "expected " + groups[g] + "=LAMP, or a LAMP for all"});
-        lamps.push_back({file_stem_of(spec), parse_lamp(spec, folder)});
+        lamps.push_back(with_file_name(find_lamp(spec, folder, sample)));
     }
     return lamps;
 }
@@ -115,13 +124,6 @@ void show_dyes(SpectralImage &image, std::span<const std::string> specs) {
         const NamedSpec one = split_spec(spec);
         set_dye(*image.depths, one.name, parse_dye(one.spec));
     }
-}
-
-std::string caption_of(const NamedLamp &lamp) {
-    const std::vector<std::string> known = lamp_names();
-    if (std::find(known.begin(), known.end(), lamp.name) == known.end())
-        return lamp.name;
-    return lamp.name + ": " + lamp_description(lamp.name);
 }
 
 } // namespace tsuya::scene

@@ -103,7 +103,11 @@ void SceneReader::read_output() {
     if (!section)
         return;
     if (const auto lamps = section->texts("lamps"); lamps && !lamps->empty())
-        note(*section, "lamps", [&] { file_.output.lamps = parse_lamps(*lamps, folder_); });
+        note(*section, "lamps", [&] {
+            file_.output.lamps = parse_lamps(*lamps, folder_);
+            for (const NamedLamp &lamp : file_.output.lamps)
+                add_warnings(lamp.warnings);
+        });
     DisplayOptions &look = file_.output.look;
     if (const auto adapt = section->text("adapt"))
         note(*section, "adapt", [&] { look.adapt = parse_adaptation(*adapt); });

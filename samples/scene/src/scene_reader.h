@@ -17,8 +17,8 @@ inline constexpr double kPlainReflectance = 0.5;
 inline constexpr double kLargest = 1e6;   // metres, radiance, ...
 inline constexpr double kSmallest = 1e-6; // of what has to be above 0
 
-// Member functions stand in scene_reader.cpp, the camera in camera_section.cpp, fabrics and pictures
-// in cloth_sections.cpp, meshes in mesh_sections.cpp, lights in light_sections.cpp.
+// Member functions stand in scene_reader.cpp, the camera in camera_section.cpp, fabrics and
+// pictures in cloth_sections.cpp, meshes in mesh_sections.cpp, lights in light_sections.cpp.
 
 class SceneReader {
   public:
@@ -76,6 +76,9 @@ class SceneReader {
     std::optional<std::size_t> opacity(const Section &of);
     // Index of the pattern of a fabric, a garment or panels; empty where it has none.
     std::optional<std::size_t> pattern(const Section &of, const std::string &owner);
+    void add_warnings(const std::vector<std::string> &warnings) {
+        file_.warnings.insert(file_.warnings.end(), warnings.begin(), warnings.end());
+    }
     // A number from 0 to 1, or a text as `dye` has it.
     std::optional<Spectrum> colour(const Section &section, const char *key);
     std::filesystem::path existing_file(const Section &section, std::string_view key,

@@ -45,19 +45,22 @@ constexpr std::array<StudioLight, 2> kStudioLights{{
 }};
 
 /// A dye with the name that its files bear.
-struct NamedDye {
+struct TryOnDye {
     std::string name;
     std::optional<Spectrum> spectrum; ///< empty: the fabric's own
+    std::vector<std::string> warnings{};
 };
 
 /// What the files of a fabric's own dye are named after.
 std::string own_dye_name(const TryOn &job) { return job.fabric.stem().stem().string(); }
 
-std::vector<NamedDye> parse_dyes(const TryOn &job) {
+std::vector<TryOnDye> parse_dyes(const TryOn &job) {
     check_dyes(job.dyes);
-    std::vector<NamedDye> dyes;
-    for (const std::string &spec : job.dyes)
-        dyes.push_back({file_stem_of(spec), parse_dye(spec)});
+    std::vector<TryOnDye> dyes;
+    for (const std::string &spec : job.dyes) {
+        NamedDye dye = find_dye(spec);
+        dyes.push_back({file_stem_of(spec), std::move(dye.spectrum), std::move(dye.warnings)});
+    }
     return dyes;
 }
 
@@ -208,7 +211,7 @@ void write_pictures(const SpectralImage &image, const std::string &name, const s
         result.files.push_back(job.output / picture_name(name, lamp.name, number));
         write_png(result.files.back(), picture);
         if (number.empty())
-            sheet.pictures.push_back({std::move(picture), caption_of(lamp)});
+            sheet.pictures.push_back({std::move(picture), lamp.caption});
     }
     if (number.empty())
         sheet.row_labels.push_back(name);
@@ -300,6 +303,17 @@ void add_warnings(const RenderResult &rendered, TryOnResult &result) {
             result.warnings.push_back(warning);
 }
 
+void add_spectrum_warnings(const std::vector<TryOnDye> &dyes, const std::vector<NamedLamp> &lamps,
+                           TryOnResult &result) {
+    const auto add = [&](const auto &spectra) {
+        for (const auto &named : spectra)
+            for (const std::string &warning : named.warnings)
+                result.warnings.push_back({.what = warning});
+    };
+    add(dyes);
+    add(lamps);
+}
+
 } // namespace
 
 void check_dyes(const std::vector<std::string> &specs) {
@@ -359,7 +373,7 @@ RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Pr
 
 TryOnResult run(const TryOn &job, const Progress &progress) {
     check_pictures();
-    std::vector<NamedDye> dyes = parse_dyes(job);
+    std::vector<TryOnDye> dyes = parse_dyes(job);
     const std::vector<NamedLamp> lamps = parse_lamps(job.lamps);
     view_description(job.look.view);
     Stage stage = make_stage(job, progress);
@@ -370,6 +384,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     const OutputFolder folder(job.output);
 
     TryOnResult result{.report = std::move(stage.shown.report)};
+    add_spectrum_warnings(dyes, lamps, result);
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
     KeptMaterials kept(job.cache);
     const bool open = dyes.front().spectrum && leave_dye_open(job, scene);

@@ -1,11 +1,11 @@
-#include "delimited_text.h"
+#include "tsuya/sdk/detail/delimited_text.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
-namespace tsuya {
+namespace tsuya::detail {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
@@ -95,4 +95,4 @@ std::optional<double> DecimalReader::read(std::string_view text) {
     return code == std::errc{} && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-} // namespace tsuya
+} // namespace tsuya::detail

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "delimited_text.h"
 #include "table_columns.h"
 #include "tsuya/sdk/detail/counted.h"
+#include "tsuya/sdk/detail/delimited_text.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/text.h"
 
@@ -61,7 +61,7 @@ class TableReader {
 
   private:
     void read_line(std::string_view line) {
-        const std::string_view content = without_blanks(line);
+        const std::string_view content = detail::without_blanks(line);
         if (content.starts_with('#') || content.starts_with("\"#"))
             read_key(content);
         else if (content.find_first_not_of(";,\t ") == content.npos ||
@@ -70,7 +70,7 @@ class TableReader {
         else if (!seen_header_)
             read_header_line(line);
         else
-            read_row(split_fields(line, separator_), line);
+            read_row(detail::split_fields(line, separator_), line);
     }
 
     // `sep=;`, which spreadsheets put first.
@@ -86,14 +86,14 @@ class TableReader {
     void read_key(std::string_view content) {
         std::string comment(content);
         if (content.starts_with('"'))
-            comment = split_fields(content, ';').front().text;
+            comment = detail::split_fields(content, ';').front().text;
         comment.resize(comment.find_last_not_of(";,\t ") + 1);
-        const std::string_view entry = without_blanks(std::string_view(comment).substr(1));
+        const std::string_view entry = detail::without_blanks(std::string_view(comment).substr(1));
         const auto colon = entry.find(':');
         if (colon == entry.npos)
             return;
-        const std::string key(without_blanks(entry.substr(0, colon)));
-        const std::string value(without_blanks(entry.substr(colon + 1)));
+        const std::string key(detail::without_blanks(entry.substr(0, colon)));
+        const std::string value(detail::without_blanks(entry.substr(colon + 1)));
         if (lower_case(key) == "symmetry")
             read_symmetry(value);
         else
@@ -118,14 +118,14 @@ class TableReader {
     void read_header_line(std::string_view line) {
         seen_header_ = true;
         header_line_ = line_;
-        separator_ = given_separator_ ? given_separator_ : find_separator(line);
-        const std::vector<DelimitedField> fields = split_fields(line, separator_);
+        separator_ = given_separator_ ? given_separator_ : detail::find_separator(line);
+        const std::vector<detail::DelimitedField> fields = detail::split_fields(line, separator_);
         HeaderReading header = read_header(fields);
         columns_ = std::move(header.columns);
         names_ = fields;
         values_.resize(columns_.values.size());
-        const bool numbers = std::ranges::all_of(fields, [](const DelimitedField &field) {
-            return field.text.empty() || DecimalReader().read(field.text);
+        const bool numbers = std::ranges::all_of(fields, [](const detail::DelimitedField &field) {
+            return field.text.empty() || detail::DecimalReader().read(field.text);
         });
         if (numbers)
             problem("the first line is no header line but numbers", 1, accepted_columns());
@@ -134,7 +134,7 @@ class TableReader {
         bad_header_ = numbers || !header.problem.empty();
     }
 
-    void read_row(const std::vector<DelimitedField> &fields, std::string_view line) {
+    void read_row(const std::vector<detail::DelimitedField> &fields, std::string_view line) {
         if (bad_header_)
             return;
         const std::string count = detail::counted(names_.size(), "column");
@@ -151,11 +151,11 @@ class TableReader {
             frame_.rows.push_back(row);
     }
 
-    bool read_angles(const std::vector<DelimitedField> &fields, ReflectanceRow &row) {
+    bool read_angles(const std::vector<detail::DelimitedField> &fields, ReflectanceRow &row) {
         const std::array<double *, 4> places = {&row.theta_i, &row.phi_i, &row.theta_r, &row.phi_r};
         for (std::size_t i = 0; i < places.size(); ++i) {
             const AngleColumn &column = columns_.angle[i];
-            const DelimitedField &field = fields[column.field];
+            const detail::DelimitedField &field = fields[column.field];
             const auto v = number(field, column.field);
             if (!v)
                 return false;
@@ -175,10 +175,10 @@ class TableReader {
         return true;
     }
 
-    bool read_values(const std::vector<DelimitedField> &fields) {
+    bool read_values(const std::vector<detail::DelimitedField> &fields) {
         for (std::size_t c = 0; c < columns_.values.size(); ++c) {
             const ValueColumn &column = columns_.values[c];
-            const DelimitedField &field = fields[*column.value];
+            const detail::DelimitedField &field = fields[*column.value];
             const auto v = number(field, *column.value);
             const auto sigma = v && column.sigma
                                    ? standard_error(fields[*column.sigma], *column.sigma)
@@ -191,7 +191,7 @@ class TableReader {
     }
 
     // 0 where the field is empty.
-    std::optional<double> standard_error(const DelimitedField &field, std::size_t column) {
+    std::optional<double> standard_error(const detail::DelimitedField &field, std::size_t column) {
         const auto value = field.text.empty() ? std::optional(0.0) : number(field, column);
         if (!value || *value >= 0)
             return value;
@@ -200,7 +200,7 @@ class TableReader {
         return std::nullopt;
     }
 
-    std::optional<double> number(const DelimitedField &field, std::size_t column) {
+    std::optional<double> number(const detail::DelimitedField &field, std::size_t column) {
         const auto value = decimals_.read(field.text);
         if (!value)
             problem(names_[column].text + " is '" + field.text + "'", field.column,
@@ -288,9 +288,9 @@ class TableReader {
     ReflectanceFile file_{};
     ReflectanceTable frame_{}; // keys, symmetry and directions of all channels
     TableColumns columns_{};
-    std::vector<DelimitedField> names_{};          // of the header line
+    std::vector<detail::DelimitedField> names_{};  // of the header line
     std::vector<std::vector<ReadValue>> values_{}; // of each channel
-    DecimalReader decimals_{};
+    detail::DecimalReader decimals_{};
     Problems problems_{};
     std::size_t line_ = 0, header_line_ = 0;
     char separator_ = ',', given_separator_ = 0;

@@ -54,7 +54,7 @@ bool is_colour(std::string_view channel) {
 // Sorts the names of a header into columns.
 class HeaderReader {
   public:
-    HeaderReading read(const std::vector<DelimitedField> &fields) {
+    HeaderReading read(const std::vector<detail::DelimitedField> &fields) {
         for (std::size_t i = 0; i < fields.size(); ++i)
             if (!take(plain_name(fields[i].text), i) && !fields[i].text.empty())
                 columns_.unused.push_back(fields[i].text);
@@ -170,7 +170,7 @@ std::string accepted_columns() {
            "or brdf_r, brdf_g and brdf_b, or such as brdf_550nm, in any order";
 }
 
-HeaderReading read_header(const std::vector<DelimitedField> &fields) {
+HeaderReading read_header(const std::vector<detail::DelimitedField> &fields) {
     return HeaderReader().read(fields);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "delimited_text.h"
+#include "tsuya/sdk/detail/delimited_text.h"
 
 namespace tsuya {
 
@@ -42,6 +42,6 @@ struct HeaderReading {
     TableColumns columns{};
     std::string problem{};
 };
-HeaderReading read_header(const std::vector<DelimitedField> &fields);
+HeaderReading read_header(const std::vector<detail::DelimitedField> &fields);
 
 } // namespace tsuya

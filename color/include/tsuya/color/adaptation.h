@@ -22,10 +22,14 @@ Adaptation parse_adaptation(std::string_view name);
 /// The name that parse_adaptation reads.
 std::string to_string(Adaptation adaptation);
 
+/// Whether the three cone signals of a white are positive, so that an eye can be used to it. Those
+/// of single lines are not; `none` is always possible.
+bool can_adapt(Adaptation adaptation, const glm::dvec3 &from_white);
+
 /// The matrix (GLM: column-major) that takes XYZ under `from_white` to XYZ under `to_white`, in von
 /// Kries' form: cones of both whites by the matrix of [Lam] or [CIE159], cone by cone scaled, back.
 /// Maps `from_white` on `to_white`; the identity for `none`. Whites are XYZ with Y > 0. Throws
-/// Error if a cone signal of `from_white` is not positive.
+/// Error if not can_adapt.
 glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white,
                              const glm::dvec3 &to_white);
 

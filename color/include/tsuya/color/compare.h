@@ -7,18 +7,13 @@
 #include <vector>
 
 #include "tsuya/color/adaptation.h"
+#include "tsuya/color/lamp.h"
 #include "tsuya/color/observer.h"
 #include "tsuya/sdk/image.h"
 #include "tsuya/sdk/spectral_image.h"
 #include "tsuya/sdk/spectrum.h"
 
 namespace tsuya {
-
-/// A lamp with the name that it has in reports.
-struct NamedLamp {
-    std::string name;
-    Spectrum spectrum;
-};
 
 /// CIEDE2000 between the picture under one lamp and under another, over the pixels that count.
 struct LampDifference {

@@ -44,10 +44,11 @@ struct DisplayOptions {
 };
 
 /// Colour spaces: `CIE XYZ D65` (the scene-referred reference), `Linear Rec.709`, and for each lamp
-/// `<lamp> as seen`, `<lamp> bradford`, `<lamp> cat02`; display `sRGB` with the views above.
+/// `<lamp> as seen`, `<lamp> bradford`, `<lamp> cat02`, without those to whose white no eye adapts,
+/// as to that of a single line; display `sRGB` with the views above.
 class DisplayConfig {
   public:
-    /// Throws Error for an empty or repeated lamp name or a white to which no eye adapts.
+    /// Throws Error for an empty or repeated lamp name or a white without Y > 0.
     explicit DisplayConfig(const std::vector<LampWhite> &lamps);
     /// Opens a saved config. Throws Error at the path if it cannot be read or is none of ours.
     static DisplayConfig load(const std::filesystem::path &path);
@@ -80,7 +81,8 @@ class DisplayConfig {
 /// The name of the colour space of a lamp and an adaptation, e.g. `HP4 cat02`.
 std::string color_space_name(const std::string &lamp, Adaptation adapt);
 
-/// One picture under one lamp, without keeping a config. Throws Error as DisplayConfig.
+/// One picture under one lamp, without keeping a config. Throws Error as DisplayConfig, and as
+/// adaptation_matrix.
 Image display(const Image &xyz, const glm::dvec3 &lamp_white_xyz,
               const DisplayOptions &options = {});
 

@@ -24,9 +24,21 @@ Spectrum dye(std::string_view name);
 /// One line about a named dye. Throws Error as `dye`.
 std::string dye_description(std::string_view name);
 
-/// A dye as programs name it: a name of `dye_names()`; a path that ends in `.csv` (see
-/// read_spectrum_csv; values 0..1), relative to `folder`; or `#rrggbb`, see reflectance_of_srgb.
-/// Throws Error as those do, or at `where`.
+/// A dye with the name that it has in reports.
+struct NamedDye {
+    std::string name{};
+    Spectrum spectrum{};
+    /// What was mended or looks odd in its file, a sentence each.
+    std::vector<std::string> warnings{};
+};
+
+/// A dye as programs name it: a name of `dye_names()`; a file of spectra as
+/// parse_spectrum_file_spec knows them, relative to `folder`; or `#rrggbb`, see
+/// reflectance_of_srgb. Throws Error as those and read_dye_file do, or at `where`.
+NamedDye find_dye(const std::string &spec, const std::filesystem::path &folder = {},
+                  const std::string &where = "dye");
+
+/// The spectrum of find_dye.
 Spectrum parse_dye(const std::string &spec, const std::filesystem::path &folder = {},
                    const std::string &where = "dye");
 

@@ -23,9 +23,23 @@ Spectrum lamp(std::string_view name);
 /// One line about a named lamp: kind and correlated colour temperature. Throws Error as `lamp`.
 std::string lamp_description(std::string_view name);
 
-/// A lamp as programs name it: a name of `lamp_names()`, or a path that ends in `.csv` for
-/// read_spectrum_csv, relative to `folder`. Throws Error as those do, and for a lamp that has no
-/// visible power.
+/// A lamp with the name that it has in reports.
+struct NamedLamp {
+    std::string name{};
+    Spectrum spectrum{};
+    std::string caption{}; ///< what to write under a picture: `D65: daylight, 6504 K`
+    /// What was mended or looks odd in its file, a sentence each.
+    std::vector<std::string> warnings{};
+};
+
+/// A lamp as programs name it: a name of `lamp_names()`, or a file of spectra as
+/// parse_spectrum_file_spec knows them, relative to `folder`. A file that does not name one of
+/// several spectra has that of `sample`. The caption of a file is its name and its correlated
+/// colour temperature. Throws Error as `lamp` and read_lamp_file.
+NamedLamp find_lamp(const std::string &spec, const std::filesystem::path &folder = {},
+                    const std::string &sample = {});
+
+/// The spectrum of find_lamp.
 Spectrum parse_lamp(const std::string &spec, const std::filesystem::path &folder = {});
 
 /// Throws Error for a text that is neither of the two, whatever files there are.

@@ -15,9 +15,9 @@
 
 namespace tsuya {
 
-/// XYZ that each basis function adds: the sums of lamp x observer x basis at 1 nm over 360-830 nm,
-/// divided so that T = 1 in all channels gives Y = 1. One entry a channel. Throws Error if the lamp
-/// has no visible power.
+/// XYZ that each basis function adds: the sums of lamp x observer x basis over color_weights, so
+/// that T = 1 in all channels gives Y = 1. One entry a channel. Throws Error if the lamp has no
+/// visible power.
 std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
                                     Observer observer = Observer::cie1931);
 

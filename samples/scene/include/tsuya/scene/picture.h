@@ -23,20 +23,24 @@ Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> l
                     const DisplayOptions &look = default_look());
 
 /// Lamps as programs name them, such as `D65` or `my/lamp.csv`. A lamp of a file is called by the
-/// file's name without the extension. Throws Error as parse_lamp, and for a name used twice or
+/// file's name without the extension. Throws Error as find_lamp, and for a name used twice or
 /// none.
+/// \param sample which of several spectra a file has, where the spec does not say so
 std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
-                                   const std::filesystem::path &folder = {});
+                                   const std::filesystem::path &folder = {},
+                                   const std::string &sample = {});
 
 /// Throws Error for names that parse_lamps refuses whatever files there are.
 void check_lamps(std::span<const std::string> specs);
 
 /// The lamp of each light group of `groups`, from specs that are either `LAMP`, for every group
 /// that is not named, or `GROUP=LAMP`. Throws Error for an unknown group, with the known ones, a
-/// group without a lamp, two lamps for one group, and as parse_lamp.
+/// group without a lamp, two lamps for one group, and as find_lamp.
+/// \param sample see parse_lamps
 std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
                                          std::span<const std::string> groups,
-                                         const std::filesystem::path &folder = {});
+                                         const std::filesystem::path &folder = {},
+                                         const std::string &sample = {});
 
 /// Throws Error for specs that parse_group_lamps refuses whatever the groups and files: an unknown
 /// lamp, two lamps for one group.
@@ -46,12 +50,8 @@ void check_group_lamps(std::span<const std::string> specs);
 /// `FABRIC=DYE`. Throws Error as parse_dye and set_dye.
 void show_dyes(SpectralImage &image, std::span<const std::string> specs);
 
-/// What to write under a picture: the lamp's name, and for a named lamp its correlated colour
-/// temperature in words.
-std::string caption_of(const NamedLamp &lamp);
-
-/// The part of a file name that stands for a dye or lamp: `crimson`; `x` of `my/x.csv`; `aabbcc` of
-/// `#aabbcc`.
+/// The part of a file name that stands for a dye or lamp: `crimson`; `x` of `my/x.csv`, `x_navy` of
+/// `my/x.csv:navy`; `aabbcc` of `#aabbcc`.
 std::string file_stem_of(const std::string &spec);
 
 } // namespace tsuya::scene

@@ -91,6 +91,7 @@ struct SceneFile {
     std::optional<Environment> environment{};
     RenderSettings render{};
     OutputEntry output{};
+    std::vector<std::string> warnings{};        ///< of files of spectra, a sentence each
     std::vector<std::filesystem::path> files{}; ///< all meshes, fabrics and pictures that it names
 };
 

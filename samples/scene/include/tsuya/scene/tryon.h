@@ -106,7 +106,7 @@ RenderResult render_try_on(const Scene &scene, RenderSettings settings,
 struct TryOnResult {
     std::vector<std::filesystem::path> files{}; ///< in the order of their making
     std::vector<RenderStats> stats{};           ///< one a render
-    std::vector<Problem> warnings{};            ///< of the renders, each once
+    std::vector<Problem> warnings{}; ///< of the renders and of files of spectra, each once
     garment::Report report{};
     bool interrupted = false;
 };
