@@ -193,8 +193,8 @@ struct FabricFit final : Command {
     }
 
     // The model on the views that it was fitted to.
-    static void compare(const ReflectanceTable &table, const Brdf *brdf,
-                        FitReport &report, const Progress &progress) {
+    static void compare(const ReflectanceTable &table, const Brdf *brdf, FitReport &report,
+                        const Progress &progress) {
         const BrdfFunction f = brdf ? function_of(*brdf) : [](auto &&...) { return 0.0; };
         for (const BardView &view : report.bard.views())
             report.model.fitted_per_sr.push_back(f({0, 0, 1}, direction_of(view.theta, view.phi)));
