@@ -111,7 +111,7 @@ struct FabricEvaluate final : Command {
         if (model == "yarn")
             dyed.colours.delustre = fabric.colours.delustre;
         const Material material = resolve(dyed, fabric_file.string(), progress);
-        const BrdfFunction body = coloured_part(material, kAnyWavelength);
+        BrdfFunction body = coloured_part(material, kAnyWavelength);
         if (part == "body" || !material.specular)
             return body;
         return [body, surface = *material.specular](const glm::dvec3 &l, const glm::dvec3 &v) {

@@ -95,14 +95,14 @@ struct GarmentCheck final : Command {
     static void print_cloth(const garment::Report &r) {
         if (r.metres_per_uv_warp.p50 == 0)
             return;
-        const auto line = [](const char *name, const garment::Percentiles &p, double scale,
-                             const char *unit) {
+        const auto percentiles = [](const char *name, const garment::Percentiles &p, double scale,
+                                    const char *unit) {
             std::cout << "  " << name << " " << scale * p.p5 << ", " << scale * p.p50 << ", "
                       << scale * p.p95 << " " << unit << " (percentiles 5, 50, 95)\n";
         };
-        line("weft (u):", r.metres_per_uv_weft, 1, "m a unit of UV");
-        line("warp (v):", r.metres_per_uv_warp, 1, "m a unit of UV");
-        line("between warp and weft:", r.warp_weft_angle, degrees_of(1), "degrees");
+        percentiles("weft (u):", r.metres_per_uv_weft, 1, "m a unit of UV");
+        percentiles("warp (v):", r.metres_per_uv_warp, 1, "m a unit of UV");
+        percentiles("between warp and weft:", r.warp_weft_angle, degrees_of(1), "degrees");
     }
 
     /// What can be named: in a scene by [garments.NAME.panels], in a try-on by --fabric

@@ -21,15 +21,15 @@ class Json {
   public:
     struct Member;
 
-    Json() = default; ///< null
+    Json(); ///< null
     Json(std::same_as<bool> auto value) : value_(value) {}
     Json(std::signed_integral auto value) : value_(static_cast<std::int64_t>(value)) {}
     Json(std::unsigned_integral auto value) requires(!std::same_as<decltype(value), bool>)
         : value_(static_cast<std::uint64_t>(value)) {}
-    Json(double value) : value_(value) {} ///< null where it is not finite
-    Json(const char *value) : value_(std::string(value)) {}
-    Json(std::string value) : value_(std::move(value)) {}
-    Json(std::string_view value) : value_(std::string(value)) {}
+    Json(double value); ///< null where it is not finite
+    Json(const char *value);
+    Json(std::string value);
+    Json(std::string_view value);
     /// An object
     Json(std::initializer_list<Member> members);
 
@@ -60,5 +60,11 @@ struct Json::Member {
     std::string key;
     Json value;
 };
+
+inline Json::Json() = default;
+inline Json::Json(double value) : value_(value) {}
+inline Json::Json(const char *value) : value_(std::string(value)) {}
+inline Json::Json(std::string value) : value_(std::move(value)) {}
+inline Json::Json(std::string_view value) : value_(std::string(value)) {}
 
 } // namespace tsuya::program

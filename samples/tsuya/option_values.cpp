@@ -237,7 +237,7 @@ std::string range_of(const Option &option) {
 }
 
 std::string accepted_by(const Option &option) {
-    const std::string range = range_of(option);
+    std::string range = range_of(option);
     return std::visit(
         [&]<class T>(const T *) -> std::string {
             using Element = typename ElementOf<T>::Type;

@@ -2,7 +2,7 @@
 # clang-tidy by the checks of .clang-tidy, which fail on findings.
 # tidy_test.sh REPOSITORY BUILD [all]
 #   BUILD  has compile_commands.json
-#   all    every source of the libraries and the program, not the central ones alone
+#   all    every source that the build compiles of the libraries and the program, not the central ones alone
 # Versions of clang-tidy differ, so that one is asked for; skipped (status 77) without it.
 set -euo pipefail
 cd "$1"
@@ -43,7 +43,9 @@ sed -E 's/ -Winvalid-pch -include [^ ]*cmake_pch\.hxx//' "$build/compile_command
     >"$commands/compile_commands.json"
 files=("${central[@]}")
 if [ "${3:-}" = all ]; then
-    mapfile -t files < <(find sdk color garment lab samples -name '*.cpp' | sort)
+    # Those that this build compiles: of two versions of a library one
+    mapfile -t files < <(sed -nE 's#^ *"file": "'"$1"'/((sdk|color|garment|lab|samples)/.*\.cpp)",?$#\1#p' \
+        "$build/compile_commands.json" | sort -u)
 fi
 # The compiler's flags name a warning that clang does not know.
 printf '%s\0' "${files[@]}" | xargs -0 -P "$(nproc)" -n 1 \

@@ -39,7 +39,7 @@ class Findings {
             {severity, std::move(key), std::move(what), std::move(where), std::move(action)});
     }
     /// Only where something was counted. \param one, many how `what` begins, of one and of several
-    void count(std::size_t n, Severity severity, std::string key, const std::string &one,
+    void count(std::size_t n, Severity severity, const std::string &key, const std::string &one,
                const std::string &many, const std::string &what, std::string action) {
         if (n > 0)
             add(severity, key, detail::counted(n, one, many) + " " + what, std::move(action),

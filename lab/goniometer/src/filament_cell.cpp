@@ -233,7 +233,8 @@ std::vector<OutlinePoint> outline(FilamentSection section, double corner_roundin
         const double corner = std::clamp(corner_rounding, kSharpestCorner, 1.0);
         const int each = count / 3;
         for (int i = 0; i < 3 * each; ++i) {
-            const double middle = 2 * kPi / 3 * (i / each);
+            const int corner_of = i / each;
+            const double middle = 2 * kPi / 3 * corner_of;
             const double a = middle + kPi / 3 * (2.0 * (i % each) / (each - 1) - 1);
             const glm::dvec2 n{std::cos(a), std::sin(a)};
             const glm::dvec2 centre{std::cos(middle), std::sin(middle)};

@@ -20,7 +20,7 @@ constexpr float kExitWidth = 1;
 // A batch has one photon in each of 128 x 64 parts of the cell, in an order in which neighbours
 // follow each other and meet the same part of the acceleration structure.
 const glm::vec2 kStrata{128, 64};
-static_assert(kPhotonsPerBatch == 128 * 64);
+static_assert(kPhotonsPerBatch == std::uint64_t{128} * 64);
 
 std::uint32_t every_second_bit(std::uint32_t x) {
     x &= 0x55555555u;
@@ -220,7 +220,8 @@ Fate Walker::within(Photon &photon, Hit &hit) {
     const FilamentBody &body = *matter_[strand.system].body;
     const double depth = body.depth / (2 * strand.radius), turns = body.scattering * cell.unit;
     for (;;) {
-        const double reach = turns > 0 ? -std::log(random_.open_unit()) / turns : kForever;
+        const double reach = turns > 0 ? -std::log(random_.open_unit()) / turns
+                                       : std::numeric_limits<double>::infinity();
         float travelled;
         ++rays_;
         const Fate fate = scene_.within(photon.place, photon.direction, static_cast<float>(reach),

@@ -77,8 +77,8 @@ PatchWindow hann_window(int side, const PictureLattice &lattice, double repeats)
     return window(side, [&](double x, double y) {
         double sum = 0;
         for (int i = 0; i < kHannPoints * kHannPoints; ++i) {
-            const glm::dvec2 p(x + (i % kHannPoints + 0.5) / kHannPoints,
-                               y + (i / kHannPoints + 0.5) / kHannPoints);
+            const int column = i % kHannPoints, row = i / kHannPoints;
+            const glm::dvec2 p(x + (column + 0.5) / kHannPoints, y + (row + 0.5) / kHannPoints);
             sum += hann(cross(p, lattice.warp) / determinant) *
                    hann(cross(lattice.weft, p) / determinant);
         }

@@ -79,7 +79,7 @@ RowIndex row_of(const JournalEvent &ok, const Plan &plan) {
 /// Fills the rows with the events of a run.
 class Rows {
   public:
-    Rows(const RunEvents &run, const Plan &plan) : run_(run), plan_(plan) {
+    Rows(const RunEvents &run, const Plan &plan) : plan_(plan) {
         rows_.fill(Columns(run.begin_s(), run.end_s()));
         for (const JournalEvent *event : run.events)
             take(*event);
@@ -121,7 +121,6 @@ class Rows {
         return open.frame && plan_.frames.at(*open.frame).kind == FrameKind::dark;
     }
 
-    const RunEvents &run_;
     const Plan &plan_;
     std::array<Columns, kRows> rows_{Columns(0, 1), Columns(0, 1), Columns(0, 1), Columns(0, 1),
                                      Columns(0, 1), Columns(0, 1), Columns(0, 1)};

@@ -44,7 +44,7 @@ std::string escaped(std::string_view text) {
 std::string png_of(const Image &image, const fs::path &file) {
     const fs::path part = temporary_name(fs::path(file).replace_extension(".png"));
     write_png(part, image);
-    const std::string bytes = read_file(part);
+    std::string bytes = read_file(part);
     fs::remove(part);
     return bytes;
 }

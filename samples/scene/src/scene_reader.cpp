@@ -12,7 +12,7 @@ std::filesystem::path SceneReader::existing_file(const Section &section, std::st
     const std::string name = required ? section.required_text(key) : section.text(key).value_or("");
     if (name.empty())
         return {};
-    const std::filesystem::path path = folder_ / name;
+    std::filesystem::path path = folder_ / name;
     std::error_code code;
     if (!std::filesystem::is_regular_file(path, code))
         section.problem(key, "there is no file " + path.string(),

@@ -62,7 +62,8 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
 
 Film::TileError Film::tile_error(std::size_t t) const {
     TileError result;
-    const double n = done[t], odd = done[t] / 2, even = n - odd;
+    const int count_odd = done[t] / 2;
+    const double n = done[t], odd = count_odd, even = n - odd;
     const std::size_t count = groups * static_cast<std::size_t>(channels);
     for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
         for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {

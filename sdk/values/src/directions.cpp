@@ -49,7 +49,8 @@ Directions normal_incidence(double step_deg, Symmetry symmetry) {
 Directions paper_directions(double theta_step_deg, double phi_step_deg) {
     check_step(theta_step_deg, "theta_step_deg");
     check_step(phi_step_deg, "phi_step_deg");
-    constexpr std::size_t kLights = 6 * 3; // as printed: straight down at each of its azimuths
+    constexpr std::size_t kLights =
+        std::size_t{6} * 3; // as printed: straight down at each of its azimuths
     Directions directions;
     for (int theta_deg = 0; theta_deg < 90; theta_deg += 15)
         for (int phi_deg = 0; phi_deg <= (theta_deg > 0 ? 90 : 0); phi_deg += 45)

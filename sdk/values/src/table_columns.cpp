@@ -89,7 +89,7 @@ class HeaderReader {
         return false;
     }
 
-    bool take_value(std::string name, std::size_t field) {
+    bool take_value(const std::string &name, std::size_t field) {
         for (const auto &[what, member] :
              {std::pair("brdf", &ValueColumn::value), std::pair("sigma", &ValueColumn::sigma)}) {
             std::string channel = name;

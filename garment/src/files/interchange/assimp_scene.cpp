@@ -57,7 +57,7 @@ std::string text_of(const aiString &text) { return {text.data, text.length}; }
 
 /// Of a node of a Collada file without a name the id or the sid. Empty where Assimp made one up.
 std::string name_of(const aiNode &node) {
-    const std::string name = text_of(node.mName);
+    std::string name = text_of(node.mName);
     if (!name.starts_with("$ColladaAutoName$"))
         return name;
     aiString id;

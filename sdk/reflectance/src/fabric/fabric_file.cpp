@@ -36,7 +36,7 @@ Spectrum read_spectrum(const Section &section, const Field &field, const Spectru
                        "expected constant, or wavelength_nm and value");
     if (!wavelength_nm || !value)
         return otherwise;
-    const Spectrum spectrum{*wavelength_nm, *value};
+    Spectrum spectrum{*wavelength_nm, *value};
     try {
         check_spectrum(spectrum, field.low, field.high, "");
     } catch (const Error &error) {

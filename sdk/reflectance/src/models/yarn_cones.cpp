@@ -17,7 +17,7 @@ constexpr int kTurns = 8; // of half a filament's normals about its axis
 // beside it.
 YarnCones::YarnCones(const YarnLobes &lobes, double width,
                      const std::function<float(float)> &about_yarn) {
-    std::vector<double> mass(2 * kSines);
+    std::vector<double> mass(std::size_t{2} * kSines);
     for (std::size_t axis = 0; axis < 2; ++axis)
         for (int k = 0; k < kYarnSlopes; ++k)
             for (int turn = 0; turn < kTurns; ++turn) {

@@ -80,7 +80,7 @@ Seen YarnProblem::seen(double roughness) const {
     Seen made;
     const YarnOptics optics(f0_, roughness);
     const SlopeLobes shapes(roughness);
-    const int count = unknowns_of_system();
+    const Eigen::Index count = unknowns_of_system();
     made.lobes.resize(target_.size(), 2 * count);
     for (Eigen::Index i = 0; i < target_.size(); ++i) {
         const FittedView &view = views_[static_cast<std::size_t>(i)];
@@ -104,7 +104,7 @@ Seen YarnProblem::seen(double roughness) const {
 
 // The lobes times what light and viewer reach; the last column is the rest.
 Eigen::MatrixXd YarnProblem::basis(const Seen &seen, const YarnLobes &lobes, Rest rest) const {
-    const int count = unknowns_of_system();
+    const Eigen::Index count = unknowns_of_system();
     const YarnDepth depth(lobes);
     Eigen::MatrixXd b(seen.lobes.rows(), 2 * count + 1);
     for (Eigen::Index i = 0; i < b.rows(); ++i) {
@@ -137,7 +137,7 @@ Eigen::MatrixXd YarnProblem::bending() const {
 }
 
 void YarnProblem::store(const Eigen::VectorXd &x, Rest rest, YarnLobes &lobes) const {
-    const int count = unknowns_of_system();
+    const Eigen::Index count = unknowns_of_system();
     for (int axis = 0; axis < 2; ++axis) {
         auto &surface = lobes.surface[static_cast<std::size_t>(axis)];
         surface.fill(0);
@@ -157,7 +157,7 @@ void YarnProblem::store(const Eigen::VectorXd &x, Rest rest, YarnLobes &lobes) c
 double YarnProblem::solve(const Seen &seen, YarnLobes &lobes, Rest rest, Eigen::VectorXd &x,
                           double least_even) const {
     stop_if_asked(progress_);
-    const int count = unknowns_of_system();
+    const Eigen::Index count = unknowns_of_system();
     const Eigen::MatrixXd b = basis(seen, lobes, rest);
     Eigen::MatrixXd a = b.transpose() * b;
     const Eigen::VectorXd target = target_ - least_even * b.col(2 * count);

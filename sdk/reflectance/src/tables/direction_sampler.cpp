@@ -57,7 +57,8 @@ Distribution2D tabulate(const DirectionSampler::Density &density, const glm::vec
 DirectionSampler::DirectionSampler(const Density &density)
     : density_(static_cast<std::size_t>(kRows * kColumns)) {
     tbb::parallel_for(0, kRows * kColumns, [&](int k) {
-        const float root = static_cast<float>(k / kColumns) / (kRows - 1);
+        const int row = k / kColumns;
+        const float root = static_cast<float>(row) / (kRows - 1);
         const float z = std::max(root * root, kLowest), s = std::sqrt(std::max(0.0f, 1 - z * z));
         const float phi = static_cast<float>(k % kColumns) * (2 * kPiF / kColumns);
         density_[static_cast<std::size_t>(k)] =

@@ -2,19 +2,19 @@
 /// \file
 /// Numbers of things in messages.
 
-#include <cstddef>
+#include <concepts>
 #include <string>
 
 namespace tsuya::detail {
 
 /// `1 vertex lies`, `3 vertices lie`.
-inline std::string counted(std::size_t n, const std::string &one, const std::string &many) {
+std::string counted(std::integral auto n, const std::string &one, const std::string &many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
 /// `1 value`, `3 values`.
 /// \param what one of them, a noun whose plural ends in s
-inline std::string counted(std::size_t n, const std::string &what) {
+std::string counted(std::integral auto n, const std::string &what) {
     return counted(n, what, what + "s");
 }
 
