@@ -11,7 +11,7 @@ namespace tsuya {
 namespace {
 
 void need_emission(double value, const char *what, const std::string &where, Problems &problems) {
-    problems.need(is_radiance(value), std::string("the ") + what + " is " + number_text(value),
+    problems.need(is_radiance(value), std::string("the ") + what + " is " + plain_number(value),
                   where + "." + what, radiances_text());
 }
 
@@ -30,7 +30,7 @@ void need_direction(const glm::dvec3 &direction, const char *key, const std::str
 void need_radius(double radius, const std::string &where, Problems &problems) {
     problems.need(radius >= 0 && kPi * radius * radius >= kSmallestLight, "the light has no area",
                   where + ".radius",
-                  "expected at least " + number_text(kSmallestLight) + " m2, or a point light");
+                  "expected at least " + plain_number(kSmallestLight) + " m2, or a point light");
 }
 
 } // namespace
@@ -42,17 +42,17 @@ bool is_length(const glm::dvec3 &v) {
 
 bool is_radiance(double v) { return v >= 0 && v <= kLargestRadiance; }
 
-std::string number_text(double v) {
+std::string plain_number(double v) {
     std::ostringstream text;
     text << v;
     return text.str();
 }
 
 std::string lengths_text() {
-    return "expected coordinates within " + number_text(kLargestLength) + " m";
+    return "expected coordinates within " + plain_number(kLargestLength) + " m";
 }
 
-std::string radiances_text() { return "expected 0 to " + number_text(kLargestRadiance); }
+std::string radiances_text() { return "expected 0 to " + plain_number(kLargestRadiance); }
 
 void check_light(const RectangleLight &light, const std::string &where, Problems &problems) {
     if (!is_length(light.corner) || !is_length(light.edge_u) || !is_length(light.edge_v))
@@ -61,7 +61,7 @@ void check_light(const RectangleLight &light, const std::string &where, Problems
         problems.need(glm::length(glm::cross(light.edge_u, light.edge_v)) >= kSmallestLight,
                       "the light has no area", where,
                       "expected two edges that are not parallel, and at least " +
-                          number_text(kSmallestLight) + " m2");
+                          plain_number(kSmallestLight) + " m2");
     need_emission(light.radiance, "radiance", where, problems);
 }
 

@@ -112,7 +112,7 @@ struct SceneCheck {
     void check_placement(const Placement &placement, const std::string &where) {
         const auto &[width, origin, turn, repeat] = placement;
         need(width > 0 && width <= kLargestLength,
-             "the picture is " + number_text(width) + " m wide", where + ".width",
+             "the picture is " + plain_number(width) + " m wide", where + ".width",
              "expected a width above 0");
         need(is_length({origin, 0}) && std::isfinite(turn),
              "the place of the picture is not finite", where, "expected metres and radians");
@@ -204,7 +204,7 @@ struct SceneCheck {
     void check_environment(const Environment &environment) {
         check_group(environment.group, "environment.group");
         if (!problems.need(is_radiance(environment.radiance),
-                           "the radiance is " + number_text(environment.radiance),
+                           "the radiance is " + plain_number(environment.radiance),
                            "environment.radiance", radiances_text()) ||
             !environment.picture)
             return;
@@ -224,14 +224,14 @@ struct SceneCheck {
         need(!c.orthographic_height, "an orthographic camera has no lens", "camera.lens",
              "expected a lens or orthographic_height");
         need(lens.f_number >= 0.01 && lens.f_number <= 1e6,
-             "the f-number is " + number_text(lens.f_number), "camera.lens.f_number",
+             "the f-number is " + plain_number(lens.f_number), "camera.lens.f_number",
              "expected 0.01 to 1e6, such as 2.8");
         need(lens.sensor_height >= 1e-6 && lens.sensor_height <= 1e6,
-             "the sensor is " + number_text(lens.sensor_height) + " m high",
+             "the sensor is " + plain_number(lens.sensor_height) + " m high",
              "camera.lens.sensor_height", "expected 1e-6 to 1e6 m, such as 0.036");
         need(!lens.focus_distance ||
                  (*lens.focus_distance > 0 && *lens.focus_distance <= kLargestLength),
-             "the lens is focused at " + number_text(lens.focus_distance.value_or(0)) + " m",
+             "the lens is focused at " + plain_number(lens.focus_distance.value_or(0)) + " m",
              "camera.lens.focus_distance", "expected a distance above 0 m before the camera");
         need(lens.blades == 0 || (lens.blades >= 3 && lens.blades <= 16),
              "the aperture has " + std::to_string(lens.blades) + " blades", "camera.lens.blades",
@@ -248,9 +248,9 @@ struct SceneCheck {
                  "expected eye and target apart, and up not parallel to the view");
         if (c.orthographic_height)
             need(*c.orthographic_height > 0 && *c.orthographic_height <= kLargestLength,
-                 "the camera sees " + number_text(*c.orthographic_height) + " m",
+                 "the camera sees " + plain_number(*c.orthographic_height) + " m",
                  "camera.orthographic_height",
-                 "expected a height above 0 and up to " + number_text(kLargestLength) + " m");
+                 "expected a height above 0 and up to " + plain_number(kLargestLength) + " m");
         need(std::abs(c.shift.x) <= 10 && std::abs(c.shift.y) <= 10,
              "the picture is shifted too far", "camera.shift",
              "expected shares of its width and height from -10 to 10");

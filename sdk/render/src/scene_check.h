@@ -12,7 +12,7 @@ namespace tsuya {
 bool is_length(const glm::dvec3 &v);
 // 0 to kLargestRadiance.
 bool is_radiance(double v);
-std::string number_text(double v);
+std::string plain_number(double v);
 // What would be accepted.
 std::string lengths_text();
 std::string radiances_text();

@@ -80,8 +80,8 @@ Seen YarnProblem::seen(double roughness) const {
     Seen made;
     const YarnOptics optics(f0_, roughness);
     const SlopeLobes shapes(roughness);
-    const Eigen::Index count = unknowns_of_system();
-    made.lobes.resize(target_.size(), 2 * count);
+    const int count = unknowns_of_system();
+    made.lobes.resize(target_.size(), both_systems());
     for (Eigen::Index i = 0; i < target_.size(); ++i) {
         const FittedView &view = views_[static_cast<std::size_t>(i)];
         const glm::vec3 &l = view.to_light, &v = view.to_viewer;
@@ -104,16 +104,16 @@ Seen YarnProblem::seen(double roughness) const {
 
 // The lobes times what light and viewer reach; the last column is the rest.
 Eigen::MatrixXd YarnProblem::basis(const Seen &seen, const YarnLobes &lobes, Rest rest) const {
-    const Eigen::Index count = unknowns_of_system();
+    const int count = unknowns_of_system();
     const YarnDepth depth(lobes);
     Eigen::MatrixXd b(seen.lobes.rows(), 2 * count + 1);
     for (Eigen::Index i = 0; i < b.rows(); ++i) {
         const SeenView &view = seen.views[static_cast<std::size_t>(i)];
         const glm::dvec2 value = view.reach * glm::dvec2(depth.in_sight(view.half, view.span));
         for (int axis = 0; axis < 2; ++axis)
-            b.row(i).segment(axis * count, count) =
-                value[axis] * seen.lobes.row(i).segment(axis * count, count);
-        b(i, 2 * count) =
+            b.row(i).segment(Eigen::Index{axis} * count, count) =
+                value[axis] * seen.lobes.row(i).segment(Eigen::Index{axis} * count, count);
+        b(i, both_systems()) =
             rest == Rest::even ? views_[static_cast<std::size_t>(i)].weight / kPi : view.loose;
     }
     return b;
@@ -137,7 +137,7 @@ Eigen::MatrixXd YarnProblem::bending() const {
 }
 
 void YarnProblem::store(const Eigen::VectorXd &x, Rest rest, YarnLobes &lobes) const {
-    const Eigen::Index count = unknowns_of_system();
+    const int count = unknowns_of_system();
     for (int axis = 0; axis < 2; ++axis) {
         auto &surface = lobes.surface[static_cast<std::size_t>(axis)];
         surface.fill(0);
@@ -150,20 +150,21 @@ void YarnProblem::store(const Eigen::VectorXd &x, Rest rest, YarnLobes &lobes) c
                     surface[static_cast<std::size_t>(kMiddle - k)] = 0.5 * value;
         }
     }
-    lobes.loose = rest == Rest::loose ? x[2 * count] : 0;
-    lobes.even = rest == Rest::even ? x[2 * count] : 0;
+    lobes.loose = rest == Rest::loose ? x[both_systems()] : 0;
+    lobes.even = rest == Rest::even ? x[both_systems()] : 0;
 }
 
 double YarnProblem::solve(const Seen &seen, YarnLobes &lobes, Rest rest, Eigen::VectorXd &x,
                           double least_even) const {
     stop_if_asked(progress_);
-    const Eigen::Index count = unknowns_of_system();
+    const int count = unknowns_of_system();
     const Eigen::MatrixXd b = basis(seen, lobes, rest);
     Eigen::MatrixXd a = b.transpose() * b;
-    const Eigen::VectorXd target = target_ - least_even * b.col(2 * count);
+    const Eigen::VectorXd target = target_ - least_even * b.col(both_systems());
     Eigen::VectorXd linear = b.transpose() * target;
-    const double scale = std::max(b.topLeftCorner(above_, 2 * count).squaredNorm() / (2 * count),
-                                  std::numeric_limits<double>::min());
+    const double scale =
+        std::max(b.topLeftCorner(above_, both_systems()).squaredNorm() / (2 * count),
+                 std::numeric_limits<double>::min());
     a += kBending * scale * bending();
     for (int k = 0; k < 2 * count; ++k)
         linear[k] -=

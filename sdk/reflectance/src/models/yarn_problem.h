@@ -66,6 +66,7 @@ class YarnProblem {
 
   private:
     int unknowns_of_system() const;
+    Eigen::Index both_systems() const { return Eigen::Index{2} * unknowns_of_system(); }
     // Radians
     double slope(int unknown) const { return yarn_slope(static_cast<int>(index(unknown))); }
     std::size_t index(int unknown) const;
