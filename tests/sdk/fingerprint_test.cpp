@@ -153,9 +153,10 @@ Scene full_scene() {
         scene.fabrics.push_back({.name = "cloth", .specular = specular});
     scene.environment->picture = Image::make(2, 1, {"L"});
     scene.environment->picture->data = {1, 2};
-    scene.lights.insert(
-        scene.lights.end(),
-        {DiskLight{}, SphereLight{}, PointLight{.full_angle = 0.2, .cone_angle = 0.5}, SunLight{}});
+    scene.lights.insert(scene.lights.end(),
+                        {DiskLight{}, SphereLight{},
+                         PointLight{.full_angle = 0.2, .cone_angle = 0.5},
+                         PointLight{.profile = IntensityProfile{{0, 1}, {0}, {1, 1}}}, SunLight{}});
     scene.surfaces[1].uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     scene.textures = {{.width = 2, .height = 1, .channels = 1, .data = {10, 200}},
                       {.width = 2, .height = 1, .channels = 1, .data = {20, 100}}};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cone_falloff.h"
+#include "profile_frame.h"
 
 namespace tsuya {
 namespace {
@@ -35,6 +36,29 @@ double of_polygon(std::span<const glm::dvec3> corners, const glm::dvec3 &point,
             sum += std::atan2(sine, glm::dot(a, b)) / sine * across;
     }
     return 0.5 * std::abs(glm::dot(sum, normal));
+}
+
+// \param away unit vector from the light
+double intensity(const PointLight &l, const glm::dvec3 &away) {
+    const double cosine = glm::dot(away, glm::normalize(l.direction));
+    return l.intensity * cone_falloff(cosine, std::cos(l.full_angle), std::cos(l.cone_angle)) *
+           (l.profile ? ProfileFrame(l).candela(*l.profile, away) : 1);
+}
+
+// By the midpoints of even steps, half a degree each.
+double flux_of_profile(const PointLight &l) {
+    constexpr int kVertical = 360, kHorizontal = 720;
+    const ProfileFrame frame(l);
+    double sum = 0;
+    for (int i = 0; i < kVertical; ++i)
+        for (int j = 0; j < kHorizontal; ++j) {
+            const double theta = kPi * (i + 0.5) / kVertical, phi = 2 * kPi * j / kHorizontal;
+            const glm::dvec3 away =
+                std::cos(theta) * frame.axis +
+                std::sin(theta) * (std::cos(phi) * frame.zero + std::sin(phi) * frame.quarter);
+            sum += intensity(l, away) * std::sin(theta);
+        }
+    return sum * (kPi / kVertical) * (2 * kPi / kHorizontal);
 }
 
 struct Irradiance {
@@ -70,9 +94,8 @@ struct Irradiance {
     double operator()(const PointLight &l) const {
         const glm::dvec3 to_light = l.position - point;
         const double distance = glm::length(to_light);
-        const double cosine = -glm::dot(to_light, glm::normalize(l.direction)) / distance;
-        return l.intensity * cone_falloff(cosine, std::cos(l.full_angle), std::cos(l.cone_angle)) *
-               glm::dot(to_light, normal) / std::pow(distance, 3);
+        return intensity(l, -to_light / distance) * glm::dot(to_light, normal) /
+               std::pow(distance, 3);
     }
     double operator()(const SunLight &l) const {
         return l.irradiance * glm::dot(glm::normalize(l.to_light), normal);
@@ -90,6 +113,8 @@ struct Flux {
         return kPi * l.radiance * 4 * kPi * l.radius * l.radius;
     }
     double operator()(const PointLight &l) const {
+        if (l.profile)
+            return flux_of_profile(l);
         const double cos_full = std::cos(l.full_angle), cos_cone = std::cos(l.cone_angle);
         return 2 * kPi * l.intensity * ((1 - cos_full) + 0.5 * (cos_full - cos_cone));
     }

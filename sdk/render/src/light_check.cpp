@@ -1,6 +1,8 @@
 // The rules of lights, which a scene has to keep.
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "scene_check.h"
@@ -87,6 +89,22 @@ void check_light(const PointLight &light, const std::string &where, Problems &pr
                   "the angle of full intensity is wrong", where + ".full_angle",
                   "expected 0 up to the angle of the cone");
     need_emission(light.intensity, "intensity", where, problems);
+    if (!light.profile)
+        return;
+    need_direction(light.zero_plane, "zero_plane", where, problems);
+    const auto &[vertical, horizontal, candela] = *light.profile;
+    const auto rises = [](const std::vector<double> &list, double last) {
+        return !list.empty() && list.front() >= 0 && list.back() <= last + 1e-9 &&
+               std::is_sorted(list.begin(), list.end(), std::less_equal<>());
+    };
+    problems.need(
+        rises(vertical, kPi) && rises(horizontal, 2 * kPi) && vertical.size() >= 2 &&
+            candela.size() == vertical.size() * horizontal.size() &&
+            std::all_of(candela.begin(), candela.end(),
+                        [&](double v) { return v >= 0 && is_radiance(v * light.intensity); }),
+        "the profile is wrong", where + ".profile",
+        "expected rising angles, and an intensity of 0 to " + number_text(kLargestRadiance) +
+            " for each pair of them");
 }
 
 void check_light(const SunLight &light, const std::string &where, Problems &problems) {

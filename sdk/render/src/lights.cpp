@@ -98,11 +98,16 @@ void Lights::add_environment(const Environment &environment) {
     if (!environment.picture)
         return;
     picture_ = &*environment.picture;
+    environment_turn_ = static_cast<float>(environment.turn / (2 * kPi));
+    for (const LightGroupIndex group : environment.further_groups)
+        further_groups_.push_back(group.value);
+    const std::size_t channels = 1 + further_groups_.size();
     std::vector<double> mass;
     for (int y = 0; y < picture_->height; ++y) {
         const double sine = std::sin(kPiF * (y + 0.5) / picture_->height);
         for (int x = 0; x < picture_->width; ++x)
-            mass.push_back(picture_->pixel(x, y)[0] * sine);
+            mass.push_back(sine * std::accumulate(picture_->pixel(x, y),
+                                                  picture_->pixel(x, y) + channels, 0.0f));
     }
     environment_density_ = Distribution2D(mass, picture_->height, picture_->width);
     environment_irradiance_ = kPiF * environment.radiance *
@@ -223,7 +228,8 @@ bool Lights::end_at_obstacle(const glm::vec3 &from, const glm::vec3 &direction,
 
 std::optional<LightRay> Lights::sample_environment(glm::vec2 u) const {
     const Distribution2D::Sample s = environment_density_.sample(u);
-    const float theta = kPiF * s.point.y, phi = 2 * kPiF * (s.point.x - 0.5f);
+    const float theta = kPiF * s.point.y;
+    const float phi = 2 * kPiF * (s.point.x - 0.5f + environment_turn_);
     const float sine = std::sin(theta);
     if (!(sine > 0))
         return std::nullopt;
@@ -234,24 +240,50 @@ std::optional<LightRay> Lights::sample_environment(glm::vec2 u) const {
 
 glm::vec2 Lights::square_of(const glm::vec3 &d) const {
     const float theta = std::atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y);
-    return {std::atan2(d.x, d.z) / (2 * kPiF) + 0.5f, theta / kPiF};
+    float x = std::atan2(d.x, d.z) / (2 * kPiF) + 0.5f;
+    if (environment_turn_ != 0) {
+        x -= environment_turn_;
+        x -= std::floor(x);
+    }
+    return {x, theta / kPiF};
 }
 
-LightMet Lights::meet_environment(const glm::vec3 &direction) const {
+LightMet Lights::meet_environment(const glm::vec3 &direction, std::size_t channel) const {
     const std::size_t light = environment_light();
-    return {environment_radiance(direction), traits_[light].group, light,
+    const float *const pixel = environment_pixel(direction);
+    return {environment_scale_ * (pixel ? pixel[channel] : 1.0f),
+            channel == 0 ? traits_[light].group : further_groups_[channel - 1], light,
             environment_pdf(direction)};
 }
 
-float Lights::environment_radiance(const glm::vec3 &direction) const {
+Lights::Parts Lights::environment_parts(const glm::vec3 &to_light) const {
+    Parts parts{.count = 1 + further_groups_.size(), .group = {traits_.back().group}};
+    const float *const pixel = environment_pixel(to_light);
+    const float all = std::accumulate(pixel, pixel + parts.count, 0.0f);
+    for (std::size_t c = 0; c < parts.count; ++c) {
+        parts.share[c] = all > 0 ? pixel[c] / all : 0;
+        if (c > 0)
+            parts.group[c] = further_groups_[c - 1];
+    }
+    return parts;
+}
+
+const float *Lights::environment_pixel(const glm::vec3 &direction) const {
     if (!picture_)
-        return environment_scale_;
+        return nullptr;
     const glm::vec2 p = square_of(direction);
     const int x = std::clamp(static_cast<int>(p.x * static_cast<float>(picture_->width)), 0,
                              picture_->width - 1);
     const int y = std::clamp(static_cast<int>(p.y * static_cast<float>(picture_->height)), 0,
                              picture_->height - 1);
-    return environment_scale_ * picture_->pixel(x, y)[0];
+    return picture_->pixel(x, y);
+}
+
+float Lights::environment_radiance(const glm::vec3 &direction) const {
+    const float *const pixel = environment_pixel(direction);
+    return pixel ? environment_scale_ *
+                       std::accumulate(pixel, pixel + 1 + further_groups_.size(), 0.0f)
+                 : environment_scale_;
 }
 
 float Lights::environment_pdf(const glm::vec3 &direction) const {

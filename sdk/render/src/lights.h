@@ -1,6 +1,7 @@
 #pragma once
 // Lights as the path tracer samples and meets them.
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <variant>
@@ -40,7 +41,18 @@ class Lights {
     float choice_probability(const Receiver &receiver, std::size_t light) const;
     // A light that no ray is to meet has the density kOnlyDirection.
     std::optional<LightRay> sample(std::size_t light, const glm::vec3 &from, glm::vec2 u) const;
-    std::uint32_t group(std::size_t light) const { return traits_[light].group; }
+    // The groups that a sampled ray of a light goes to, each with its share of the radiance:
+    // several of a coloured environment.
+    struct Parts {
+        std::size_t count = 1;
+        std::array<std::uint32_t, kMostEnvironmentGroups> group;
+        std::array<float, kMostEnvironmentGroups> share{1};
+    };
+    Parts parts(std::size_t light, const glm::vec3 &to_light) const {
+        return light == environment_light() && !further_groups_.empty()
+                   ? environment_parts(to_light)
+                   : Parts{.group = {traits_[light].group}};
+    }
     bool throws_shadows(std::size_t light) const { return traits_[light].shadows; }
 
     // Calls `meet(LightMet)` for every light that the ray crosses nearer than `farthest`.
@@ -102,7 +114,8 @@ class Lights {
     void share_choices(double from_near);
     template <class F> void meet_distant(const glm::vec3 &direction, F &&meet) const {
         if (environment_)
-            meet(meet_environment(direction));
+            for (std::size_t c = 0; c <= further_groups_.size(); ++c)
+                meet(meet_environment(direction, c));
         for (std::size_t s = 0; s < suns_.size(); ++s)
             if (const std::size_t i = near_.size() + s;
                 suns_[s].is_met(direction) && traits_[i].shadows)
@@ -114,10 +127,14 @@ class Lights {
                 return true;
         return false;
     }
-    LightMet meet_environment(const glm::vec3 &direction) const;
+    // \param channel of the picture
+    LightMet meet_environment(const glm::vec3 &direction, std::size_t channel) const;
+    Parts environment_parts(const glm::vec3 &to_light) const;
     std::size_t environment_light() const { return near_.size() + suns_.size(); }
     std::optional<LightRay> sample_environment(glm::vec2 u) const;
-    float environment_radiance(const glm::vec3 &direction) const;
+    // The values of the picture's channels; null for an even environment.
+    const float *environment_pixel(const glm::vec3 &direction) const;
+    float environment_radiance(const glm::vec3 &direction) const; // of all groups
     float environment_pdf(const glm::vec3 &direction) const;
     glm::vec2 square_of(const glm::vec3 &direction) const;
 
@@ -130,7 +147,8 @@ class Lights {
     bool obstacles_ = false, any_seen_ = false;
     bool environment_ = false;
     double environment_irradiance_ = 0; // of a picture
-    float environment_scale_ = 0;
+    float environment_scale_ = 0, environment_turn_ = 0;
+    std::vector<std::uint32_t> further_groups_{};
     const Image *picture_ = nullptr;
     Distribution2D environment_density_{};
 };

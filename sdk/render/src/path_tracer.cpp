@@ -203,10 +203,11 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
     const Weighed w = vertex.weigh(ray->to_light);
     if (!(w.f_cos.sum() > 0))
         return;
+    const Lights::Parts parts = scene_.lights.parts(chosen.light, ray->to_light);
     ShadowRay shadow{vertex.ray_origin(ray->to_light),
                      ray->to_light,
                      ray->distance * kShadowReach,
-                     path.radiance + scene_.lights.group(chosen.light),
+                     path.radiance + parts.group[0],
                      {}};
     const float weight = ray->pdf < kOnlyDirection
                              ? power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf)
@@ -216,11 +217,12 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
     if (shadows &&
         scene_.lights.block(shadow.origin, shadow.direction, shadow.distance, chosen.light))
         return;
-    if (path.vertex > 0 || scene_.has_holes() || !shadows) {
+    if (path.vertex > 0 || scene_.has_holes() || !shadows || parts.count > 1) {
         const float arrives =
             shadows ? transmission(shadow.origin, shadow.direction, shadow.distance) : 1.0f;
-        if (arrives > 0)
-            shadow.to->add(response, path.throughput, arrives);
+        for (std::size_t part = 0; part < parts.count && arrives > 0; ++part)
+            path.radiance[parts.group[part]].add(response, path.throughput,
+                                                 arrives * parts.share[part]);
         return;
     }
     shadow.brings.add(response, path.throughput, 1);

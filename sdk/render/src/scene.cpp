@@ -203,6 +203,16 @@ struct SceneCheck {
 
     void check_environment(const Environment &environment) {
         check_group(environment.group, "environment.group");
+        for (const LightGroupIndex group : environment.further_groups)
+            check_group(group, "environment.further_groups");
+        need(std::isfinite(environment.turn), "the turn is not finite", "environment.turn",
+             "expected radians");
+        const std::size_t channels = 1 + environment.further_groups.size();
+        need(channels == 1 || (channels <= kMostEnvironmentGroups && environment.picture &&
+                               channels <= environment.picture->channels.size()),
+             "there are " + std::to_string(channels) + " groups", "environment.further_groups",
+             "expected a picture with a channel for each, and " +
+                 std::to_string(kMostEnvironmentGroups) + " at most");
         if (!problems.need(is_radiance(environment.radiance),
                            "the radiance is " + plain_number(environment.radiance),
                            "environment.radiance", radiances_text()) ||

@@ -15,6 +15,7 @@
 #include <glm/glm.hpp>
 
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/intensity_profile.h"
 #include "tsuya/sdk/scene_index.h"
 
 namespace tsuya {
@@ -70,18 +71,25 @@ struct SphereLight {
     LightBehaviour behaviour{};
 };
 
-/// A light at a point: to all sides, or within a cone. Nothing but its light can be seen of it.
+/// A light at a point: to all sides, within a cone, or as a luminaire was measured. Nothing but its
+/// light can be seen of it.
 struct PointLight {
     std::string name{}; ///< for messages
     glm::dvec3 position{0, 2, 2};
     double intensity = 1.0;         ///< along the axis of the cone; 0 to kLargestRadiance
-    glm::dvec3 direction{0, -1, 0}; ///< axis of the cone; any length above 0
+    glm::dvec3 direction{0, -1, 0}; ///< axis of cone and profile; any length above 0
     /// Angles from the axis, radians: up to `full_angle` the intensity is the axis's, at
     /// `cone_angle` and beyond it is 0. 0 <= full_angle <= cone_angle, 0 < cone_angle <= pi; where
     /// cone_angle is pi and full_angle as well, the light is the same to all sides.
     double full_angle = kPi, cone_angle = kPi;
     LightGroupIndex group{};
     bool shadows = true; ///< see LightBehaviour
+    /// Its candelas are factors of `intensity`; the product is kLargestRadiance at most.
+    std::optional<IntensityProfile> profile{};
+    /// Where the profile's horizontal angle is 0, as far as it is perpendicular to the axis; any
+    /// length above 0. The angle grows counter-clockwise seen against the axis: from above, of a
+    /// luminaire that shines down.
+    glm::dvec3 zero_plane{0, 0, 1};
 };
 
 /// Light from a direction, infinitely far: the sun.

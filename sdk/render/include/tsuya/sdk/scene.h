@@ -52,14 +52,20 @@ struct Object {
     std::vector<PanelFabric> panels{}; ///< each panel once; those not here are as the object
 };
 
-/// Light from infinitely far. With a picture: its first channel, latitude-longitude, row 0 towards
-/// +y, the centre column towards +z; scaled by `radiance`.
+/// Light from infinitely far. With a picture: latitude-longitude, row 0 towards +y, the centre
+/// column towards +z; scaled by `radiance`. Its first channel is of `group`; of a coloured
+/// environment the next ones are of groups with lamps of their own.
 struct Environment {
     double radiance = 1.0; ///< 0 to kLargestRadiance, times every value of the picture too
     std::optional<Image> picture{};
     LightGroupIndex group{};
     bool visible = true; ///< to the camera directly
+    double turn = 0;     ///< of the picture about +y, from +z to +x, radians
+    /// Of the picture's second channel and on; kMostEnvironmentGroups at most, with `group`.
+    std::vector<LightGroupIndex> further_groups{};
 };
+
+inline constexpr std::size_t kMostEnvironmentGroups = 4;
 
 /// All that is rendered. Parts refer to each other by index. Positions are in metres.
 struct Scene {

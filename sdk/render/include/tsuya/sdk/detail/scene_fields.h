@@ -124,8 +124,16 @@ template <class F, detail::MaybeConst<SphereLight> T> void each_field(F &&f, T &
     f(detail::Field{"behaviour"}, behaviour);
 }
 
+template <class F, detail::MaybeConst<IntensityProfile> T> void each_field(F &&f, T &profile) {
+    auto &[vertical, horizontal, candela] = profile;
+    f(detail::Field{"vertical"}, vertical);
+    f(detail::Field{"horizontal"}, horizontal);
+    f(detail::Field{"candela"}, candela);
+}
+
 template <class F, detail::MaybeConst<PointLight> T> void each_field(F &&f, T &light) {
-    auto &[name, position, intensity, direction, full_angle, cone_angle, group, shadows] = light;
+    auto &[name, position, intensity, direction, full_angle, cone_angle, group, shadows, profile,
+           zero_plane] = light;
     f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"position"}, position);
     f(detail::Field{.key = "intensity", .low = 0}, intensity);
@@ -134,6 +142,8 @@ template <class F, detail::MaybeConst<PointLight> T> void each_field(F &&f, T &l
     f(detail::Field{.key = "cone_angle", .low = 0}, cone_angle);
     f(detail::Field{"group"}, group);
     f(detail::Field{"shadows"}, shadows);
+    f(detail::Field{"profile"}, profile);
+    f(detail::Field{"zero_plane"}, zero_plane);
 }
 
 template <class F, detail::MaybeConst<SunLight> T> void each_field(F &&f, T &light) {
@@ -156,11 +166,13 @@ template <class F, detail::MaybeConst<Image> T> void each_field(F &&f, T &image)
 }
 
 template <class F, detail::MaybeConst<Environment> T> void each_field(F &&f, T &environment) {
-    auto &[radiance, picture, group, visible] = environment;
+    auto &[radiance, picture, group, visible, turn, further_groups] = environment;
     f(detail::Field{.key = "radiance", .low = 0}, radiance);
     f(detail::Field{"picture"}, picture);
     f(detail::Field{"group"}, group);
     f(detail::Field{"visible"}, visible);
+    f(detail::Field{"turn"}, turn);
+    f(detail::Field{"further_groups"}, further_groups);
 }
 
 template <class F, detail::MaybeConst<Lens> T> void each_field(F &&f, T &lens) {
