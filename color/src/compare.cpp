@@ -48,13 +48,13 @@ std::vector<char> pixels_that_count(const SpectralImage &image, const CompareOpt
 }
 
 /// CIELAB of each pixel, adapted to sRGB's white; also takes the pixels that are not finite out.
-std::vector<glm::vec3> lab_picture(const SpectralImage &transport, const Spectrum &spectrum,
+std::vector<glm::vec3> lab_picture(const SpectralImage &transport, const NamedLamp &lamp,
                                    const CompareOptions &options, std::vector<char> &counts) {
-    const Image xyz = relight(transport, spectrum, {.observer = options.observer});
+    const Image xyz = relight(transport, lamp.spectrum, {.observer = options.observer});
     const glm::dvec3 to = srgb_white();
     const glm::dmat3 adapt =
-        std::exp2(options.exposure_stops) *
-        adaptation_matrix(options.adapt, white_of(spectrum, options.observer), to);
+        lamp.factor * std::exp2(options.exposure_stops) *
+        adaptation_matrix(options.adapt, white_of(lamp.spectrum, options.observer), to);
     std::vector<glm::vec3> lab(counts.size(), glm::vec3(0.0f));
     const auto width = static_cast<std::size_t>(xyz.width);
     for_rows(xyz.height, width * 3, [&](int first, int end) {
@@ -100,7 +100,7 @@ std::vector<LampDifference> compare_lamps(const SpectralImage &transport,
     std::vector<char> counts = pixels_that_count(transport, options);
     std::vector<std::vector<glm::vec3>> labs;
     for (const NamedLamp &named : lamps)
-        labs.push_back(lab_picture(transport, named.spectrum, options, counts));
+        labs.push_back(lab_picture(transport, named, options, counts));
     std::vector<LampDifference> differences;
     for (std::size_t i = 0; i < lamps.size(); ++i)
         for (std::size_t j = i + 1; j < lamps.size(); ++j) {

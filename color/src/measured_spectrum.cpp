@@ -45,12 +45,11 @@ std::string range_text(const Spectrum &s) {
 class Judge {
   public:
     Judge(const std::filesystem::path &path, const std::string &sample)
-        : path_(path.string()), file_(read_spectrum_file(path)),
-          sample_(find_sample(file_, sample, path_)) {}
+        : path_(path.string()), sample_(find_sample(read_spectrum_file(path), sample, path_)) {}
 
     MeasuredSpectrum lamp() {
-        if (file_.quantity == SpectralQuantity::reflectance ||
-            file_.quantity == SpectralQuantity::transmittance)
+        if (sample_.quantity == SpectralQuantity::reflectance ||
+            sample_.quantity == SpectralQuantity::transmittance)
             refuse("the file says that it holds a reflectance or transmittance",
                    "expected the relative power of a lamp");
         check_wavelengths();
@@ -69,7 +68,7 @@ class Judge {
     }
 
     MeasuredSpectrum dye() {
-        if (file_.quantity == SpectralQuantity::power)
+        if (sample_.quantity == SpectralQuantity::power)
             refuse("the file says that it holds the power of a lamp",
                    "expected the reflectance of a cloth");
         check_wavelengths();
@@ -94,6 +93,11 @@ class Judge {
 
     void check_wavelengths() const {
         const Spectrum &s = sample_.spectrum;
+        for (std::size_t i = 1; i < s.wavelength_nm.size(); ++i)
+            if (!(s.wavelength_nm[i] > s.wavelength_nm[i - 1]))
+                throw Error(
+                    {"the wavelength " + number_text(s.wavelength_nm[i]) + " nm does not increase",
+                     sample_.where[i], "expected each wavelength once, in order"});
         const double first = s.wavelength_nm.front(), last = s.wavelength_nm.back();
         if (first > kLastNm || last < kFirstNm)
             for (const Unit &unit : kUnits)
@@ -188,8 +192,8 @@ class Judge {
 
     void take_percent() {
         const double highest = *std::ranges::max_element(values());
-        const bool by_value = !file_.percent && highest > kLeastPercent;
-        if (!file_.percent && !by_value)
+        const bool by_value = !sample_.percent && highest > kLeastPercent;
+        if (!sample_.percent && !by_value)
             return;
         if (by_value && highest <= 100 * (1 + kNoiseAbove))
             warn("values up to " + number_text(highest) + " are read as percent");
@@ -199,7 +203,6 @@ class Judge {
     }
 
     std::string path_;
-    SpectrumFile file_;
     SpectrumSample sample_;
     double shown_unit_ = 1; ///< 100: values are told in percent
     std::vector<std::string> warnings_{};

@@ -35,6 +35,31 @@ glm::dvec3 matching_between(Observer observer, double nm) {
                           : glm::mix(below, color_matching(observer, whole_nm + 1), nm - floor_nm);
 }
 
+/// Powers near the ends of the range of a double would overflow or vanish in sums: their scale.
+double unit_of(const Spectrum &lamp) {
+    constexpr double kLargest = 1e100;
+    double peak = 0;
+    for (const double value : lamp.value)
+        peak = std::max(peak, value);
+    return peak > kLargest || (peak > 0 && peak < 1 / kLargest) ? peak : 1;
+}
+
+/// lamp / unit x observer by the trapezoidal rule.
+std::vector<ColorWeight> terms(const Spectrum &lamp, Observer observer,
+                               std::span<const double> more_nm, double unit) {
+    const std::vector<double> nodes = integration_nodes(lamp, more_nm);
+    std::vector<ColorWeight> all;
+    all.reserve(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        // The outermost whole nanometres stand for a nanometre each, as in the sum at 1 nm.
+        const double before = i > 0 ? nodes[i - 1] : nodes.front() - 1;
+        const double after = i + 1 < nodes.size() ? nodes[i + 1] : nodes.back() + 1;
+        all.push_back({nodes[i], 0.5 * (after - before) * (lamp.at(nodes[i]) / unit) *
+                                     matching_between(observer, nodes[i])});
+    }
+    return all;
+}
+
 } // namespace
 
 glm::dvec3 color_matching(Observer observer, int wavelength_nm) {
@@ -47,31 +72,24 @@ glm::dvec3 color_matching(Observer observer, int wavelength_nm) {
 
 std::vector<ColorWeight> color_weights(const Spectrum &lamp, Observer observer,
                                        std::span<const double> more_nm) {
-    const std::vector<double> nodes = integration_nodes(lamp, more_nm);
-    std::vector<ColorWeight> weights;
-    weights.reserve(nodes.size());
-    double peak = 0;
-    for (const double nm : nodes) {
-        weights.push_back({nm, glm::dvec3(lamp.at(nm))});
-        peak = std::max(peak, weights.back().xyz.y);
-    }
-    // Powers near the ends of the range of a double would overflow or vanish in the sums.
-    constexpr double kLargest = 1e100;
-    const double unit = peak > kLargest || (peak > 0 && peak < 1 / kLargest) ? peak : 1;
+    std::vector<ColorWeight> weights = terms(lamp, observer, more_nm, unit_of(lamp));
     double white_y = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        // The outermost whole nanometres stand for a nanometre each, as in the sum at 1 nm.
-        const double before = i > 0 ? nodes[i - 1] : nodes.front() - 1;
-        const double after = i + 1 < nodes.size() ? nodes[i + 1] : nodes.back() + 1;
-        weights[i].xyz *= 0.5 * (after - before) / unit * matching_between(observer, nodes[i]);
-        white_y += weights[i].xyz.y;
-    }
+    for (const ColorWeight &weight : weights)
+        white_y += weight.xyz.y;
     if (!(white_y > 0))
         throw Error({"the lamp has no visible power", "lamp",
                      "expected a spectrum with positive power between 360 and 830 nm"});
     for (ColorWeight &weight : weights)
         weight.xyz /= white_y;
     return weights;
+}
+
+double luminous_power(const Spectrum &lamp, Observer observer) {
+    const double unit = unit_of(lamp);
+    double power = 0;
+    for (const ColorWeight &weight : terms(lamp, observer, {}, unit))
+        power += weight.xyz.y;
+    return power * unit;
 }
 
 glm::dvec3 xyz_of(const Spectrum &lamp, const Spectrum &reflectance, Observer observer) {

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <sstream>
 
+#include "lower_case.h"
+#include "spectra/spectral_formats.h"
 #include "spectra/spectral_text.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
@@ -23,24 +24,21 @@ struct Format {
 };
 
 SpectrumFile read_text_table(std::string_view bytes, const std::string &name) {
-    return parse_spectral_text(decode_text(bytes, name), name);
+    const std::string text = decode_text(bytes, name);
+    return text.find("BEGIN_DATA_FORMAT") == text.npos ? parse_spectral_text(text, name)
+                                                       : parse_cgats(text, name);
 }
 
 constexpr std::array kFormats{
-    Format{".csv", read_text_table},
-    Format{".txt", read_text_table},
-    Format{".tsv", read_text_table},
+    Format{".csv", read_text_table}, Format{".txt", read_text_table},
+    Format{".tsv", read_text_table}, Format{".spdx", parse_tm27},
+    Format{".cxf", parse_cxf},       Format{".ti3", parse_cgats},
+    Format{".sp", parse_cgats},      Format{".cgats", parse_cgats},
+    Format{".qtx", parse_qtx},       Format{".mif", parse_mif},
 };
 
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char &c : result)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
-
 const Format *format_of(std::string_view file) {
-    const std::string name = lower(file);
+    const std::string name = lower_case(file);
     const auto found = std::ranges::find_if(
         kFormats, [&](const Format &format) { return name.ends_with(format.ending); });
     return found == kFormats.end() ? nullptr : &*found;
@@ -70,7 +68,10 @@ SpectrumFile read_spectrum_file(const std::filesystem::path &path) {
     if (!format)
         throw Error({"the file has an ending that no format of spectra has", path.string(),
                      "expected one of: " + spectrum_file_endings()});
-    return format->read(read_file(path), path.string());
+    SpectrumFile file = format->read(read_file(path), path.string());
+    for (SpectrumSample &sample : file.samples)
+        sort_rising(sample);
+    return file;
 }
 
 const SpectrumSample &find_sample(const SpectrumFile &file, const std::string &name,
@@ -79,7 +80,7 @@ const SpectrumSample &find_sample(const SpectrumFile &file, const std::string &n
         return file.samples.front();
     std::vector<std::string> names;
     for (const SpectrumSample &sample : file.samples) {
-        if (!name.empty() && lower(sample.name) == lower(name))
+        if (!name.empty() && lower_case(sample.name) == lower_case(name))
             return sample;
         names.push_back(sample.name);
     }

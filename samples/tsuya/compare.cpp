@@ -47,10 +47,13 @@ struct Compare final : Command {
     void options(Options &o) override {
         o.argument(&transport, "OUT.exr", "light transport from render or tryon").required();
         o.option("--lamps", &lamps, "A,B,...",
-                 "two or more of `tsuya list lamps`, or files of spectra")
+                 "two or more of `tsuya list lamps`, files of spectra, or a set of lamps")
             .with_commas()
-            .at_least(2)
-            .check([this] { scene::check_lamps(lamps); })
+            .check([this] {
+                scene::check_lamps(lamps);
+                if (expand_lamp_sets(lamps).size() < 2)
+                    throw Error({"one lamp is named", "", "expected two or more"});
+            })
             .required();
         o.option(
              "--dyes", &dyes, "A,B,...",

@@ -1,11 +1,15 @@
 // tsuya list: what can be named.
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "command.h"
 #include "json_file.h"
+#include "tsuya/color/color_rendering.h"
 #include "tsuya/color/config.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
@@ -20,7 +24,53 @@ namespace {
 struct Entry {
     std::string name;
     std::string description;
+    std::optional<LampFigures> figures{};
 };
+
+/// A number with some decimals, `-` where there is none; at the right of a column.
+std::string column(const std::optional<double> &number, int decimals, std::size_t width) {
+    std::ostringstream text;
+    if (number)
+        // Not "-0": rounded first
+        text << std::fixed << std::setprecision(decimals)
+             << std::round(*number * std::pow(10, decimals)) / std::pow(10, decimals) + 0.0;
+    else
+        text << '-';
+    return std::string(width - std::min(width, text.str().size()), ' ') + text.str();
+}
+
+std::optional<double> kelvin_of(const LampFigures &figures) {
+    return figures.temperature ? std::optional(figures.temperature->kelvin) : std::nullopt;
+}
+
+std::optional<double> duv_of(const LampFigures &figures) {
+    return figures.temperature ? std::optional(figures.temperature->duv) : std::nullopt;
+}
+
+constexpr const char *kFigureNames = "     x      y    CCT     Duv    Ra   Rf   Rg";
+
+std::string figures_text(const LampFigures &f) {
+    return column(f.xy.x, 4, 6) + column(f.xy.y, 4, 7) + column(kelvin_of(f), 0, 7) +
+           column(duv_of(f), 4, 8) + column(f.ra, 0, 6) + column(f.rf, 0, 5) + column(f.rg, 0, 5);
+}
+
+Json json_of(const Entry &entry) {
+    Json json{{"name", entry.name}, {"description", entry.description}};
+    if (!entry.figures)
+        return json;
+    const LampFigures &f = *entry.figures;
+    const auto number = [](const std::optional<double> &value) {
+        return value ? Json(*value) : Json(nullptr);
+    };
+    json["x"] = f.xy.x;
+    json["y"] = f.xy.y;
+    json["cct_k"] = number(kelvin_of(f));
+    json["duv"] = number(duv_of(f));
+    json["ra"] = number(f.ra);
+    json["rf"] = number(f.rf);
+    json["rg"] = number(f.rg);
+    return json;
+}
 
 struct List final : Command {
     std::string kind{};
@@ -34,6 +84,10 @@ struct List final : Command {
         o.flag("--json", &json, "print the names as JSON");
         o.option("--data", &data, "DIR", "folder of the sample data");
         o.example("tsuya list lamps");
+        o.notes(
+            "Lamps: chromaticity, correlated colour temperature in K, distance from the Planckian "
+            "locus, colour rendering index Ra, fidelity and gamut index Rf and Rg of TM-30. "
+            "D4000 to D25000, 500K to 100000K and mixtures are known, too.");
     }
 
     Status run(Console &) override {
@@ -41,16 +95,18 @@ struct List final : Command {
         if (json) {
             Json named{{"schema", "tsuya-list 1"}, {"kind", kind}, {"entries", Json::array()}};
             for (const Entry &entry : list)
-                named["entries"].push_back(
-                    {{"name", entry.name}, {"description", entry.description}});
+                named["entries"].push_back(json_of(entry));
             std::cout << named.text() << "\n";
             return kDone;
         }
         std::size_t width = 0;
         for (const Entry &entry : list)
             width = std::max(width, entry.name.size());
+        if (kind == "lamps")
+            std::cout << std::string(width + 2, ' ') << kFigureNames << "\n";
         for (const Entry &entry : list)
             std::cout << entry.name << std::string(width + 2 - entry.name.size(), ' ')
+                      << (entry.figures ? figures_text(*entry.figures) + "  " : "")
                       << entry.description << "\n";
         return kDone;
     }
@@ -81,9 +137,25 @@ struct List final : Command {
         return lustre == 0 ? what : what + ", " + std::string(kLustreNames[lustre]);
     }
 
+    /// Those with tables, other names for them, and sets.
+    static std::vector<Entry> lamps() {
+        std::vector<Entry> list = described(lamp_names(), lamp_description);
+        for (const LampAlias &alias : lamp_aliases())
+            list.push_back({alias.name, lamp_description(alias.name)});
+        for (Entry &entry : list)
+            entry.figures = lamp_figures(lamp(entry.name));
+        for (const LampSet &set : lamp_sets()) {
+            std::string members;
+            for (const std::string &member : set.lamps)
+                members += (members.empty() ? "" : ", ") + member;
+            list.push_back({set.name, "a set: " + members});
+        }
+        return list;
+    }
+
     std::vector<Entry> entries() const {
         if (kind == "lamps")
-            return described(lamp_names(), lamp_description);
+            return lamps();
         if (kind == "dyes")
             return described(dye_names(), dye_description);
         if (kind == "views")

@@ -125,10 +125,6 @@ template <class T> void set(const Option &option, T &field) {
             throw WrongCall({detail::counted(option.words.size(), "value") + " given",
                              name_of(option),
                              "expected " + std::to_string(*option.count) + ": " + option.value});
-        if (option.words.size() < option.least_count.value_or(0))
-            throw WrongCall(
-                {detail::counted(option.words.size(), "value") + " given", name_of(option),
-                 "expected at least " + std::to_string(*option.least_count) + ": " + option.value});
         field.clear();
         for (const std::string &word : option.words)
             field.push_back(value_of<Element>(option, word));
@@ -307,11 +303,6 @@ Option &Option::with_words() {
 
 Option &Option::exactly(std::size_t number) {
     count = number;
-    return *this;
-}
-
-Option &Option::at_least(std::size_t number) {
-    least_count = number;
     return *this;
 }
 

@@ -55,8 +55,6 @@ struct Option {
     Option &with_words();
     /// As many values, no more and no fewer.
     Option &exactly(std::size_t count);
-    /// No fewer values.
-    Option &at_least(std::size_t count);
     /// A file that the command writes: it must not be one that the call reads, nor another result.
     /// Its name ends in one of the extensions (such as `.png`), where some are given.
     Option &result(std::vector<std::string> extensions = {});
@@ -77,7 +75,7 @@ struct Option {
     bool is_required = false, has_commas = false, has_words = false, is_open = false;
     bool is_result = false, may_be_file = false;
     std::optional<double> least{}, most{};
-    std::optional<std::size_t> count{}, least_count{};
+    std::optional<std::size_t> count{};
     std::vector<std::string> choices{}, extensions{};
     std::vector<std::function<void()>> rules{};
     std::vector<const Option *> needed{}, excluded{};

@@ -23,8 +23,8 @@ struct Relight final : Command {
     void options(Options &o) override {
         o.argument(&transport, "OUT.exr", "light transport from render or tryon").required();
         o.option("--lamp", &lamps, "LAMP",
-                 "name of `tsuya list lamps` or a file of spectra, for all light groups; "
-                 "GROUP=LAMP for one of them; may be repeated")
+                 "name of `tsuya list lamps`, a file of spectra or a mixture such as "
+                 "0.7*A+0.3*D65, for all light groups; GROUP=LAMP for one of them; may be repeated")
             .check([this] { scene::check_group_lamps(lamps); })
             .required();
         o.option(
@@ -36,7 +36,7 @@ struct Relight final : Command {
         o.option("--bits", &bits, "N", "bits of a sample of the PNG").one_of({"8", "16"});
         look.add_to(o);
         add_threads(o, threads);
-        o.example("tsuya relight dress.exr --lamp key=A --lamp fill=D65 -o dress.png");
+        o.example("tsuya relight dress.exr --lamp key=A --lamp fill=0.5*D65 -o dress.png");
     }
 
     Status run(Console &console) override {

@@ -24,12 +24,15 @@ install(FILES "${PROJECT_BINARY_DIR}/tsuyaConfig.cmake"
               "${PROJECT_BINARY_DIR}/tsuyaConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/FindOpenSubdiv.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/FindOpenColorIO.cmake"
+              "${CMAKE_CURRENT_LIST_DIR}/FindLittleCms.cmake"
         DESTINATION ${package_dir} COMPONENT package)
 
 # For pkg-config: what libraries of others are called on the linker's command line.
 set(pc_of_TBB::tbb -ltbb)
 set(pc_of_embree -lembree3)
+set(pc_of_LittleCms::LittleCms -llcms2)
 set(pc_of_OpenColorIO::OpenColorIO -lOpenColorIO)
+set(pc_of_pugixml::pugixml -lpugixml)
 set(pc_of_draco::draco -ldraco)
 set(pc_of_meshoptimizer::meshoptimizer -lmeshoptimizer)
 set(pc_of_OpenMeshCore -lOpenMeshCore)

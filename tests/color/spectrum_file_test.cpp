@@ -67,7 +67,7 @@ TEST(SpectrumFile, HasAllColumnsByName) {
         folder.write("many.csv", "nm,Front %,flag,Back %\n400,10,ok,30\n500,20,ok,40\n");
     const SpectrumFile file = read_spectrum_file(path);
     ASSERT_EQ(file.samples.size(), 2u);
-    EXPECT_TRUE(file.percent);
+    EXPECT_TRUE(file.samples[0].percent);
     EXPECT_EQ(find_sample(file, "BACK %", "x").spectrum.value, (std::vector<double>{30, 40}));
     test::expect_problem([&] { find_sample(file, "", "x"); }, "x",
                          "holds 2 spectra; expected one of: Front %, Back %, as FILE:NAME");

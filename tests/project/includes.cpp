@@ -62,6 +62,8 @@ const std::vector<Owned> kOwners{
     {"Eigen/", {"sdk/values", "sdk/reflectance"}},
     {"toml++/", {"sdk/values"}},
     {"OpenColorIO/", {"color"}},
+    {"lcms2.h", {"color"}},
+    {"pugixml.hpp", {"color"}},
     {"OpenImageIO/", {"color"}},
     {"OpenMesh/", {"garment"}},
     {"assimp/", {"garment"}},

@@ -4,6 +4,7 @@
 
 #include "samples/scratch.h"
 #include "tsuya/color/lamp.h"
+#include "tsuya/color/srgb.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/error.h"
 
@@ -37,6 +38,31 @@ TEST(Lamps, AreNamedAfterTheirFiles) {
               }).what.find("two lamps"),
               std::string::npos);
     EXPECT_EQ(problem_of([] { parse_lamps(Texts{}); }).where, "lamps");
+}
+
+TEST(Lamps, SetsStandForSeveral) {
+    const std::vector<NamedLamp> lamps = parse_lamps(Texts{"lightbox-europe", "HP4"});
+    ASSERT_EQ(lamps.size(), 4u);
+    EXPECT_EQ(lamps[1].name, "TL84");
+    EXPECT_EQ(lamps[1].caption, "TL84: three-band fluorescent, 4000 K, as FL11");
+    EXPECT_NE(problem_of([] {
+                  check_lamps(Texts{"A", "lightbox-europe"});
+              }).what.find("two lamps"),
+              std::string::npos);
+}
+
+TEST(Lamps, FactorsScaleTheirGroups) {
+    SpectralImage image = SpectralImage::make(1, 1, {}, {"key", "fill"});
+    std::fill(image.transport.begin(), image.transport.end(), 0.1f);
+    const auto grey = [&](const Texts &specs) {
+        const DisplayOptions plain{.adapt = Adaptation::cat02, .view = "Plain"};
+        const Image rgb = picture_under(image, parse_group_lamps(specs, image.groups), plain);
+        return srgb_decode(static_cast<double>(*rgb.pixel(0, 0)));
+    };
+    EXPECT_NEAR(grey({"D65"}), 0.2, 1e-4);
+    EXPECT_NEAR(grey({"0.5*D65"}), 0.1, 1e-4);
+    EXPECT_NEAR(grey({"key=D65*3", "fill=500lx*D65"}), 0.35, 1e-4);
+    EXPECT_NEAR(grey({"key=0*D65", "fill=D65"}), 0.1, 1e-4);
 }
 
 TEST(Lamps, OfGroups) {
@@ -79,6 +105,7 @@ TEST(FileStem, IsFitForAFileName) {
     EXPECT_EQ(file_stem_of("my/own.CSV"), "own");
     EXPECT_EQ(file_stem_of("my/own.csv:navy"), "own_navy");
     EXPECT_EQ(file_stem_of("#aabbcc"), "aabbcc");
+    EXPECT_EQ(file_stem_of("0.7*A + 0.3*D65"), "0.7A_+_0.3D65");
     EXPECT_EQ(file_stem_of("a/b").find('/'), std::string::npos);
 }
 

@@ -278,7 +278,7 @@ TEST(WrongCall, ValuesThatNoInputCouldMakeRight) {
         {{"relight", exr, "--lamp", "=A", "-o", png}, "--lamp: '=A' names no light group"},
         {{"relight", exr, "--lamp", "A", "--lamp", "E", "-o", png}, "--lamp: two lamps for all"},
         {{"compare", exr, "--lamps", "A", "-o", png},
-         "--lamps: 1 value given; expected at least 2"},
+         "--lamps: one lamp is named; expected two or more"},
         {{"fabric", "simulate", "satan 5", "-o", csv}, "WEAVE: unknown weave \"satan 5\""},
         {{"fabric", "simulate", "w.toml", "-o", csv, "--directions", "papr"},
          "--directions: 'papr' is unknown; expected one of: normal, paper; did you mean paper?; or "

@@ -154,8 +154,6 @@ class TextReader {
 
     SpectrumFile finish() {
         problems_.throw_if_any();
-        for (SpectrumSample &sample : file_.samples)
-            sort_rising(sample);
         return std::move(file_);
     }
 
@@ -205,7 +203,7 @@ class TextReader {
                 columns.push_back(i);
                 file_.samples.push_back({.name = column_name(headers, i)});
                 for (const Fields &header : headers)
-                    file_.percent |= header[i].text.find('%') != std::string::npos;
+                    file_.samples.back().percent |= header[i].text.find('%') != std::string::npos;
             }
         const std::size_t end = end_of_values(first);
         for (std::size_t i = first; i < end && !problems_.full(); ++i)
@@ -271,8 +269,9 @@ class TextReader {
     }
 
     void read_samples(std::size_t header, const Fields &names, const std::vector<std::size_t> &at) {
-        for (const DelimitedField &field : names)
-            file_.percent |= field.text.find('%') != std::string::npos;
+        const bool percent = std::ranges::any_of(names, [](const DelimitedField &field) {
+            return field.text.find('%') != std::string::npos;
+        });
         const std::size_t end = end_of_values(header);
         for (std::size_t i = header + 1; i < end && !problems_.full(); ++i) {
             const Fields fields = fields_of(lines_[i], separator_);
@@ -282,7 +281,7 @@ class TextReader {
                         " as in the line of wavelengths");
                 continue;
             }
-            SpectrumSample sample{.name = sample_name(names, fields, at)};
+            SpectrumSample sample{.name = sample_name(names, fields, at), .percent = percent};
             for (const std::size_t column : at)
                 if (const auto value = number_at(lines_[i], fields[column]))
                     add_value(sample, *wavelength_in_name(names[column].text), *value,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
@@ -36,9 +37,14 @@ NamedLamp with_file_name(NamedLamp lamp) {
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
                     const DisplayOptions &look) {
     std::vector<Spectrum> spectra;
-    for (const NamedLamp &lamp : lamps)
+    RelightOptions options;
+    for (const NamedLamp &lamp : lamps) {
         spectra.push_back(lamp.spectrum);
-    const Image xyz = relight(transport, spectra);
+        options.group_scale.push_back(lamp.factor);
+    }
+    if (lamps.size() == 1)
+        options.group_scale.assign(transport.groups.size(), lamps[0].factor);
+    const Image xyz = relight(transport, spectra, options);
     return display(xyz, white_of(spectra[0]), look);
 }
 
@@ -46,8 +52,10 @@ std::string file_stem_of(const std::string &spec) {
     std::string stem = spec;
     if (const auto file = parse_spectrum_file_spec(spec))
         stem = file->path.stem().string() + (file->sample.empty() ? "" : "_" + file->sample);
-    std::erase(stem, '#');
+    std::erase_if(
+        stem, [](char c) { return std::string_view("#*%()").find(c) != std::string_view::npos; });
     std::replace(stem.begin(), stem.end(), '/', '_');
+    std::replace(stem.begin(), stem.end(), ' ', '_');
     return stem;
 }
 
@@ -55,7 +63,7 @@ void check_lamps(std::span<const std::string> specs) {
     if (specs.empty())
         throw Error({"no lamp is named", "lamps", "expected such as D65,A"});
     std::set<std::string> names;
-    for (const std::string &spec : specs) {
+    for (const std::string &spec : expand_lamp_sets(specs)) {
         check_lamp_spec(spec);
         if (const std::string name = file_stem_of(spec); !names.insert(name).second)
             throw Error({"two lamps have the name '" + name + "', the last is " + spec, "lamps",
@@ -67,7 +75,7 @@ std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
                                    const std::filesystem::path &folder, const std::string &sample) {
     check_lamps(specs);
     std::vector<NamedLamp> lamps;
-    for (const std::string &spec : specs)
+    for (const std::string &spec : expand_lamp_sets(specs))
         lamps.push_back(with_file_name(find_lamp(spec, folder, sample)));
     return lamps;
 }

@@ -328,6 +328,7 @@ void check_dyes(const std::vector<std::string> &specs) {
 
 std::vector<fs::path> replaced_files(const TryOn &job) {
     const bool one_shape = job.frames.empty(), numbered = !one_shape || job.morph_targets;
+    const std::vector<std::string> lamps = expand_lamp_sets(job.lamps);
     std::vector<std::string> dyes;
     std::transform(job.dyes.begin(), job.dyes.end(), std::back_inserter(dyes), file_stem_of);
     if (dyes.empty() || job.keeps_own_dye)
@@ -335,7 +336,7 @@ std::vector<fs::path> replaced_files(const TryOn &job) {
     const auto is_result = [&](const std::string &name, const std::string &number) {
         return std::any_of(dyes.begin(), dyes.end(), [&](const std::string &dye) {
             return name == transport_name(dye, number) ||
-                   std::any_of(job.lamps.begin(), job.lamps.end(), [&](const std::string &lamp) {
+                   std::any_of(lamps.begin(), lamps.end(), [&](const std::string &lamp) {
                        return name == picture_name(dye, file_stem_of(lamp), number);
                    });
         });

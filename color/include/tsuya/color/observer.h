@@ -36,6 +36,10 @@ struct ColorWeight {
 std::vector<ColorWeight> color_weights(const Spectrum &lamp, Observer observer = Observer::cie1931,
                                        std::span<const double> more_nm = {});
 
+/// The sum of lamp x y over the same terms: luminous power in the lamp's unit, times 1 nm. 0 or
+/// more for lamps that are nowhere negative.
+double luminous_power(const Spectrum &lamp, Observer observer = Observer::cie1931);
+
 /// XYZ of a surface of reflectance `reflectance` under `lamp`, summed over `color_weights` with the
 /// samples of the reflectance; a perfect white (reflectance 1) has Y = 1. The lamp's unit does not
 /// matter. Throws Error if the lamp has no visible power. [CIE015] section 7.1

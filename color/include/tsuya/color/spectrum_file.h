@@ -4,8 +4,11 @@
 ///
 /// | ending | is |
 /// |---|---|
-/// | `.csv`, `.txt`, `.tsv` | rows of wavelength and values, or a row for each sample under a line
-/// of wavelengths |
+/// | `.csv`, `.txt`, `.tsv` | rows of wavelength and values, or rows of samples; CGATS |
+/// | `.spdx` | TM-27 of the IES |
+/// | `.cxf` | Colour Exchange Format 3 |
+/// | `.ti3`, `.sp`, `.cgats` | CGATS tables, also of Argyll |
+/// | `.qtx`, `.mif` | samples of Datacolor; of X-Rite's Ink Master |
 ///
 /// Endings and names have any case. Text is decoded by TextDecoder, so it may be UTF-16. Fields are
 /// parted by `;`, tab, `,` or blanks and may be quoted; decimals follow a point or a comma.
@@ -20,7 +23,7 @@
 
 namespace tsuya {
 
-/// What the values of a file are, where it says so.
+/// What values are, where the file says so.
 enum class SpectralQuantity { unknown, power, reflectance, transmittance };
 
 /// One spectrum of a file: a column, a row, or an object.
@@ -28,13 +31,13 @@ struct SpectrumSample {
     std::string name{};               ///< of the column or the sample
     Spectrum spectrum{{}, {}};        ///< wavelengths in nm, in rising order
     std::vector<std::string> where{}; ///< place of each value, for messages
+    SpectralQuantity quantity = SpectralQuantity::unknown;
+    bool percent = false; ///< the file says that values are percent
 };
 
 /// What a file holds, as it stands there: no value is judged.
 struct SpectrumFile {
     std::vector<SpectrumSample> samples{}; ///< at least one, in the order of the file
-    SpectralQuantity quantity = SpectralQuantity::unknown;
-    bool percent = false; ///< the file says that values are percent
 };
 
 /// Reads all spectra of a file; its ending says how. In text, lines that begin with `#`, a preamble

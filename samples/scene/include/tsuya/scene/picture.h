@@ -16,14 +16,15 @@ namespace tsuya::scene {
 /// How pictures look by default: colours as seen beside daylight, highlights rolled off.
 inline DisplayOptions default_look() { return {.adapt = Adaptation::none, .view = "Soft"}; }
 
-/// Display-encoded R, G, B of the transport under one lamp for all light groups, or one for each.
+/// Display-encoded R, G, B of the transport under one lamp for all light groups, or one for each,
+/// each times its factor.
 /// Where the look adapts, the eye is used to the lamp of the first group. Throws Error as relight
 /// and display.
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
                     const DisplayOptions &look = default_look());
 
-/// Lamps as programs name them, such as `D65` or `my/lamp.csv`. A lamp of a file is called by the
-/// file's name without the extension. Throws Error as find_lamp, and for a name used twice or
+/// Lamps as programs name them, such as `D65` or `my/lamp.csv`; a name of `lamp_sets()` stands for
+/// several. A lamp of a file is called by the file's name without the extension. Throws Error as find_lamp, and for a name used twice or
 /// none.
 /// \param sample which of several spectra a file has, where the spec does not say so
 std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
