@@ -103,7 +103,7 @@ void check_light(const PointLight &light, const std::string &where, Problems &pr
             std::all_of(candela.begin(), candela.end(),
                         [&](double v) { return v >= 0 && is_radiance(v * light.intensity); }),
         "the profile is wrong", where + ".profile",
-        "expected rising angles, and an intensity of 0 to " + number_text(kLargestRadiance) +
+        "expected rising angles, and an intensity of 0 to " + plain_number(kLargestRadiance) +
             " for each pair of them");
 }
 
