@@ -59,7 +59,7 @@ Spot spot_of(const Scene &scene, int samples) {
     return spot;
 }
 
-constexpr int kPixels = 96;
+constexpr int kPixels = 64;
 
 // The diameter of the blur disk of a point at the distance s through a lens of aperture A focused
 // at d: A |1/d - 1/s| on a plane at distance 1 behind the lens, whatever the focal length.
@@ -82,7 +82,7 @@ TEST(Lens, ApertureIsThatOfTheLensEquation) {
 
 // Before the plane that is sharp, behind it, and off the axis.
 TEST(Lens, APointBecomesADiskOfItsSize) {
-    const double side = 0.004;
+    const double side = 0.02;
     for (const glm::dvec3 &point :
          {glm::dvec3(0, 0, 1), glm::dvec3(0.02, -0.01, -1.5), glm::dvec3(-0.05, 0.03, 1)}) {
         Scene scene = small_square(point, side);
@@ -91,28 +91,28 @@ TEST(Lens, APointBecomesADiskOfItsSize) {
                         .vertical_angle = 0.12,
                         .width = kPixels,
                         .height = kPixels,
-                        .lens = Lens{.f_number = 1.2, .sensor_height = 0.024}};
+                        .lens = Lens{.f_number = 0.8, .sensor_height = 0.024}};
         const double s = 3 - point.z, blur = blur_pixels(scene.camera, s);
         ASSERT_GT(blur, 10);
         ASSERT_LT(blur, 60);
         // A disk's mean square, and those of the square and of a pixel
         const double square = side / pixel_width(scene.camera, s);
         const double expected = blur * blur / 8 + square * square / 6 + 1 / 6.0;
-        const Spot spot = spot_of(scene, 1024);
-        EXPECT_NEAR(spot.mean_square, expected, 0.01 * expected);
+        const Spot spot = spot_of(scene, 512);
+        EXPECT_NEAR(spot.mean_square, expected, 0.04 * expected);
         EXPECT_LT(spot.farthest, blur / 2 + square + 1);
         EXPECT_GT(spot.farthest, blur / 2 - 1);
-        EXPECT_NEAR(spot.area, square * square, 0.02 * square * square) << "no light is lost";
+        EXPECT_NEAR(spot.area, square * square, 0.05 * square * square) << "no light is lost";
 
         Scene sharp = scene; // negative control
         sharp.camera.lens->focus_distance = s;
-        EXPECT_LT(spot_of(sharp, 1024).mean_square, 0.2 * expected);
+        EXPECT_LT(spot_of(sharp, 512).mean_square, 0.4 * expected);
 
         // A polygon of circumradius R has the mean square R^2 (2 + cos(2 pi / n)) / 6
         scene.camera.lens->blades = 5;
         const double polygon =
             blur * blur / 4 * (2 + std::cos(2 * kPi / 5)) / 6 + square * square / 6 + 1 / 6.0;
-        EXPECT_NEAR(spot_of(scene, 1024).mean_square, polygon, 0.01 * polygon);
+        EXPECT_NEAR(spot_of(scene, 512).mean_square, polygon, 0.04 * polygon);
         EXPECT_GT(expected, 1.1 * polygon);
     }
 }
@@ -169,16 +169,16 @@ TEST(Shift, KeepsUprightEdgesParallel) {
                     .width = kPixels,
                     .height = kPixels,
                     .shift = {0.05, 0.5}};
-    RenderSettings settings = quick(256);
+    RenderSettings settings = quick(64);
     settings.max_bounces = 0;
     settings.aovs = {"coverage"};
     const auto slant = [&] {
         const Image coverage = render(scene, settings).image.aovs[0];
-        const glm::dvec2 high = edges_of_row(coverage, 30), low = edges_of_row(coverage, 60);
+        const glm::dvec2 high = edges_of_row(coverage, 20), low = edges_of_row(coverage, 40);
         EXPECT_GT(high.y - high.x, 10);
         return glm::length(high - low);
     };
-    EXPECT_LT(slant(), 0.1);
+    EXPECT_LT(slant(), 0.2);
     scene.camera.shift = {0, 0};
     scene.camera.target.y = 2;
     EXPECT_GT(slant(), 1);
