@@ -13,6 +13,12 @@ double lab_root(double t) {
     return t > kEdge * kEdge * kEdge ? std::cbrt(t) : 841.0 / 108.0 * t + 16.0 / 116.0;
 }
 
+// Its inverse.
+double lab_power(double root) {
+    constexpr double kEdge = 24.0 / 116.0;
+    return root > kEdge ? root * root * root : 108.0 / 841.0 * (root - 16.0 / 116.0);
+}
+
 // Hue angle in degrees, [0, 360); 0 where there is no chroma. [Sharma] Eq. 7
 double hue_deg(double a, double b) {
     if (a == 0 && b == 0)
@@ -49,6 +55,11 @@ glm::dvec3 lab_of(const glm::dvec3 &xyz, const glm::dvec3 &white) {
     const double x = lab_root(xyz.x / white.x), y = lab_root(xyz.y / white.y),
                  z = lab_root(xyz.z / white.z);
     return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+glm::dvec3 xyz_of_lab(const glm::dvec3 &lab, const glm::dvec3 &white) {
+    const double y = (lab.x + 16) / 116;
+    return white * glm::dvec3(lab_power(y + lab.y / 500), lab_power(y), lab_power(y - lab.z / 200));
 }
 
 double ciede2000(const glm::dvec3 &lab_a, const glm::dvec3 &lab_b) {

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "tsuya/color/measured_spectrum.h"
+#include "kubelka.h"
+#include "lower_case.h"
 #include "tsuya/color/observer.h"
-#include "tsuya/color/spectrum_file.h"
-#include "tsuya/color/srgb.h"
-#include "tsuya/color/upsample.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -80,23 +77,13 @@ std::vector<Dye> dyes() {
 // Undyed cloth: 0.80, down to 0.74 in the violet.
 double undyed(double nm) { return 0.80 - 0.06 / (1 + std::exp((nm - 425) / 18)); }
 
-// [Kubelka] an opaque layer: K/S = (1 - R)^2 / (2 R), and back. The square root is taken from the
-// sum so that no digits cancel where K/S is large.
-double absorption_of(double reflectance) {
-    return (1 - reflectance) * (1 - reflectance) / (2 * reflectance);
-}
-double reflectance_of(double k_over_s) {
-    return 1 / (1 + k_over_s + std::sqrt(k_over_s * (k_over_s + 2)));
-}
-
-Dye recipe_of(std::string_view name, const std::string &where, bool any_spec) {
+Dye recipe_of(std::string_view name) {
+    const std::string wanted = lower_case(name);
     for (Dye &d : dyes())
-        if (name == d.name)
+        if (wanted == d.name)
             return std::move(d);
-    throw Error({"there is no dye '" + std::string(name) + "'", where,
-                 accepted_names(name, dye_names()) +
-                     (any_spec ? "; or #rrggbb, or a file that ends in " + spectrum_file_endings()
-                               : std::string())});
+    throw Error(
+        {"there is no dye '" + std::string(name) + "'", "dye", accepted_names(name, dye_names())});
 }
 
 Spectrum dyed(const Dye &dye) {
@@ -121,33 +108,8 @@ std::vector<std::string> dye_names() {
     return names;
 }
 
-Spectrum dye(std::string_view name) { return dyed(recipe_of(name, "dye", false)); }
+Spectrum dye(std::string_view name) { return dyed(recipe_of(name)); }
 
-std::string dye_description(std::string_view name) {
-    return recipe_of(name, "dye", false).description;
-}
-
-void check_dye_spec(const std::string &spec, const std::string &where) {
-    if (spec.starts_with('#') || !parse_spectrum_file_spec(spec))
-        parse_dye(spec, {}, where);
-}
-
-NamedDye find_dye(const std::string &spec, const std::filesystem::path &folder,
-                  const std::string &where) {
-    if (spec.starts_with('#'))
-        return {.name = spec, .spectrum = reflectance_of_srgb(parse_srgb(spec, where), where)};
-    if (const std::optional<SpectrumFileSpec> file = parse_spectrum_file_spec(spec)) {
-        MeasuredSpectrum read = read_dye_file(folder / file->path, file->sample);
-        return {.name = spec,
-                .spectrum = std::move(read.spectrum),
-                .warnings = std::move(read.warnings)};
-    }
-    return {.name = spec, .spectrum = dyed(recipe_of(spec, where, true))};
-}
-
-Spectrum parse_dye(const std::string &spec, const std::filesystem::path &folder,
-                   const std::string &where) {
-    return find_dye(spec, folder, where).spectrum;
-}
+std::string dye_description(std::string_view name) { return recipe_of(name).description; }
 
 } // namespace tsuya

@@ -1,11 +1,13 @@
 #include "tsuya/color/upsample.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "tsuya/color/difference.h"
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/observer.h"
 #include "tsuya/color/relight.h"
@@ -93,23 +95,11 @@ bool fit(const std::vector<glm::dvec3> &weights, const glm::dvec3 &xyz, Vector &
     return false;
 }
 
-} // namespace
-
-Spectrum reflectance_of_srgb(const glm::dvec3 &rgb, const std::string &where) {
-    for (int c = 0; c < 3; ++c)
-        if (!(rgb[c] >= 0 && rgb[c] <= 1))
-            throw Error({"the colour has the part " + std::to_string(rgb[c]), where,
-                         "expected 0 to 1 for red, green and blue"});
-    if (rgb.x == rgb.y && rgb.y == rgb.z)
-        return Spectrum::constant(rgb.x);
-    const Spectrum d65 = lamp("D65");
-    const std::vector<glm::dvec3> weights = lamp_matrix(d65, kNodes);
-    // The rounded white of sRGB is not quite that of D65: scaled, so that greys are constant.
-    const glm::dvec3 white_ratio = white_of(d65) / srgb_white();
-    const glm::dvec3 xyz = white_ratio * (xyz_from_srgb() * rgb);
-    const glm::dvec3 grey = xyz.y * white_of(d65);
-
-    // Strong colours are reached by way of weaker ones.
+/// The reflectance of that colour; strong colours are reached by way of weaker ones.
+Spectrum smoothest(const glm::dvec3 &xyz, const Spectrum &lamp, Observer observer,
+                   const std::string &where) {
+    const std::vector<glm::dvec3> weights = lamp_matrix(lamp, kNodes, observer);
+    const glm::dvec3 grey = xyz.y * white_of(lamp, observer);
     for (const int legs : {1, 4, 16, 64, 256}) {
         Vector state{};
         bool there = true;
@@ -124,8 +114,34 @@ Spectrum reflectance_of_srgb(const glm::dvec3 &rgb, const std::string &where) {
         }
         return s;
     }
-    throw Error({"no smooth reflectance has this colour under D65", where,
+    throw Error({"no smooth reflectance has this colour under its lamp", where,
                  "expected a colour that is less bright or less saturated"});
+}
+
+} // namespace
+
+Spectrum reflectance_of_srgb(const glm::dvec3 &rgb, const std::string &where) {
+    for (int c = 0; c < 3; ++c)
+        if (!(rgb[c] >= 0 && rgb[c] <= 1))
+            throw Error({"the colour has the part " + std::to_string(rgb[c]), where,
+                         "expected 0 to 1 for red, green and blue"});
+    if (rgb.x == rgb.y && rgb.y == rgb.z)
+        return Spectrum::constant(rgb.x);
+    const Spectrum d65 = lamp("D65");
+    // The rounded white of sRGB is not quite that of D65: scaled, so that greys are constant.
+    const glm::dvec3 white_ratio = white_of(d65) / srgb_white();
+    return smoothest(white_ratio * (xyz_from_srgb() * rgb), d65, Observer::cie1931, where);
+}
+
+Spectrum reflectance_of_lab(const glm::dvec3 &lab, const Spectrum &lamp, Observer observer,
+                            const std::string &where) {
+    if (!(lab.x >= 0 && lab.x <= 100) || !std::isfinite(lab.y) || !std::isfinite(lab.z))
+        throw Error({"the colour has L* = " + std::to_string(lab.x), where,
+                     "expected 0 to 100 for L*, and finite a* and b*"});
+    const glm::dvec3 white = white_of(lamp, observer), xyz = xyz_of_lab(lab, white);
+    if (lab.y == 0 && lab.z == 0)
+        return Spectrum::constant(std::clamp(xyz.y, 0.0, 1.0));
+    return smoothest(xyz, lamp, observer, where);
 }
 
 } // namespace tsuya

@@ -103,7 +103,7 @@ struct Compare final : Command {
         const std::vector<std::string> rows = dyes.empty() ? std::vector<std::string>{""} : dyes;
         for (const std::string &dye : rows) {
             if (!dye.empty()) {
-                scene::show_dyes(image, {&dye, 1});
+                console.warnings(scene::show_dyes(image, {&dye, 1}));
                 sheet.row_labels.push_back(scene::file_stem_of(dye));
             }
             differences.push_back(

@@ -44,7 +44,7 @@ struct Relight final : Command {
         const DisplayOptions display = look.look();
         detail::run_with_threads(threads, [&] {
             SpectralImage image = read_spectral_exr(transport);
-            scene::show_dyes(image, dyes);
+            console.warnings(scene::show_dyes(image, dyes));
             const std::vector<NamedLamp> named =
                 scene::parse_group_lamps(lamps, image.groups, {}, column);
             for (const NamedLamp &lamp : named)

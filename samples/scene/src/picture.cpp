@@ -124,14 +124,18 @@ std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
     return lamps;
 }
 
-void show_dyes(SpectralImage &image, std::span<const std::string> specs) {
+std::vector<std::string> show_dyes(SpectralImage &image, std::span<const std::string> specs) {
     if (!specs.empty() && !image.depths)
         throw Error({"the dye of this picture is fixed", "dye",
                      "expected a picture of tryon, or of a scene with dye = \"any\""});
+    std::vector<std::string> warnings;
     for (const std::string &spec : specs) {
         const NamedSpec one = split_spec(spec);
-        set_dye(*image.depths, one.name, parse_dye(one.spec));
+        const NamedDye dye = find_dye(one.spec);
+        set_dye(*image.depths, one.name, dye.spectrum);
+        warnings.insert(warnings.end(), dye.warnings.begin(), dye.warnings.end());
     }
+    return warnings;
 }
 
 } // namespace tsuya::scene

@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "tsuya/color/observer.h"
 #include "tsuya/sdk/spectrum.h"
 
 namespace tsuya {
@@ -15,5 +16,11 @@ namespace tsuya {
 /// all such it is the one with the least squared slope of artanh(2 R - 1) [Burns]. Throws Error at
 /// `where` for a part outside [0, 1] and for a colour that no such reflectance has.
 Spectrum reflectance_of_srgb(const glm::dvec3 &linear_rgb, const std::string &where = "colour");
+
+/// The same for a CIELAB colour under a lamp, for an observer, of which a perfect white has L* =
+/// 100. Colours outside sRGB are no matter. Throws Error at `where` for L* outside [0, 100], a
+/// lamp without visible power and a colour that no such reflectance has.
+Spectrum reflectance_of_lab(const glm::dvec3 &lab, const Spectrum &lamp, Observer observer,
+                            const std::string &where = "colour");
 
 } // namespace tsuya

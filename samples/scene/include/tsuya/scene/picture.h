@@ -48,8 +48,9 @@ std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
 void check_group_lamps(std::span<const std::string> specs);
 
 /// Shows other dyes in a picture whose dyes are open: each spec is `DYE`, for all of them, or
-/// `FABRIC=DYE`. Throws Error as parse_dye and set_dye.
-void show_dyes(SpectralImage &image, std::span<const std::string> specs);
+/// `FABRIC=DYE`. Throws Error as find_dye and set_dye.
+/// \return the warnings of find_dye
+std::vector<std::string> show_dyes(SpectralImage &image, std::span<const std::string> specs);
 
 /// The part of a file name that stands for a dye or lamp: `crimson`; `x` of `my/x.csv`, `x_navy` of
 /// `my/x.csv:navy`; `aabbcc` of `#aabbcc`.
