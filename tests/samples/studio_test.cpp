@@ -156,9 +156,9 @@ TEST(Camera, ProjectsAsItIsRendered) {
         scene.surfaces = {{.position = {point, point, point},
                            .normal = std::vector<glm::vec3>(3, {0, 0, 1}),
                            .triangle = {{0, 1, 2}}}};
-        scene.surfaces[0].position[0] += glm::dvec3(-0.03, -0.02, 0);
-        scene.surfaces[0].position[1] += glm::dvec3(0.03, -0.02, 0);
-        scene.surfaces[0].position[2] += glm::dvec3(0, 0.04, 0);
+        scene.surfaces[0].position[0] += glm::dvec3(-0.09, -0.06, 0);
+        scene.surfaces[0].position[1] += glm::dvec3(0.09, -0.06, 0);
+        scene.surfaces[0].position[2] += glm::dvec3(0, 0.12, 0);
         scene.fabrics = {{.name = "plain"}};
         scene.objects = {{"point", {0}, {0}}};
         scene.environment = Environment{};

@@ -24,9 +24,9 @@ Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> l
                     const DisplayOptions &look = default_look());
 
 /// Lamps as programs name them, such as `D65` or `my/lamp.csv`; a name of `lamp_sets()` stands for
-/// several. A lamp of a file is called by the file's name without the extension. Throws Error as find_lamp, and for a name used twice or
-/// none.
-/// \param sample which of several spectra a file has, where the spec does not say so
+/// several. A lamp of a file is called by the file's name without the extension. Throws Error as
+/// find_lamp, and for a name used twice or none. \param sample which of several spectra a file has,
+/// where the spec does not say so
 std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
                                    const std::filesystem::path &folder = {},
                                    const std::string &sample = {});

@@ -39,6 +39,7 @@ class KeptMaterials {
     std::size_t size() const { return kept_.size(); }
     /// Forgets what is in memory: the tables of a cloth have about a megabyte.
     void clear() { kept_.clear(); }
+    /// What became of the tables so far.
     const TableUse &use() const { return use_; }
 
   private:
