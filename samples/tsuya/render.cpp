@@ -123,7 +123,7 @@ struct Render final : Command {
             return kDone;
         }
         for_each_place(file, [](const fs::path &place) { scene::prepare_output_file(place); });
-        KeptMaterials kept(cache_unless(no_cache));
+        PreparedScene prepared(cache_unless(no_cache));
         const auto count = static_cast<std::size_t>(frames.value_or(1));
         for (frame_ = 0; frame_ < count; ++frame_) {
             if (frame_ > 0)
@@ -131,7 +131,7 @@ struct Render final : Command {
             if (is_done(file, built.scene, settings))
                 continue;
             settings.checkpoint = checkpoint();
-            const Status status = render_frame(file, built.scene, settings, kept, console);
+            const Status status = render_frame(file, built.scene, settings, prepared, console);
             if (status != kDone)
                 return status;
         }
@@ -139,10 +139,10 @@ struct Render final : Command {
     }
 
     Status render_frame(const scene::SceneFile &file, const Scene &shown,
-                        const RenderSettings &settings, KeptMaterials &kept, Console &console) {
+                        const RenderSettings &settings, PreparedScene &prepared, Console &console) {
         if (resume && !frames && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
-        const RenderResult result = render(shown, settings, console.progress(), &kept);
+        const RenderResult result = render(shown, settings, console.progress(), &prepared);
         for (const Problem &warning : result.warnings)
             console.warning(warning);
         write_results(file, result);

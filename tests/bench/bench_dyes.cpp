@@ -21,10 +21,11 @@ constexpr int kSamples = 64;
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-RenderResult rendered(const Scene &scene, int channels, std::uint32_t seed, KeptMaterials &kept) {
+RenderResult rendered(const Scene &scene, int channels, std::uint32_t seed,
+                      PreparedScene &prepared) {
     return scene::render_try_on(
         scene, {.stop = {.samples_per_pixel = kSamples}, .channels = channels, .seed = seed}, {},
-        &kept);
+        &prepared);
 }
 
 // CIEDE2000 of the dress's pixels under all lamps, and of their mean colours.
@@ -70,24 +71,24 @@ double p99(std::vector<double> values) {
 void dyes(benchmark::State &state) {
     for (auto _ : state) {
         Scene scene = bench::sample_scene(1, 160, 200);
-        KeptMaterials kept;
+        PreparedScene prepared;
         scene.open_dyes = {FabricIndex{0}};
-        rendered(scene, 8, 0, kept); // the tables
+        rendered(scene, 8, 0, prepared); // the tables
         double start = processor_seconds();
-        RenderResult open = rendered(scene, 8, 0, kept);
+        RenderResult open = rendered(scene, 8, 0, prepared);
         const double open_seconds = processor_seconds() - start;
         scene.open_dyes.clear();
         scene.fabrics[0].colours.dye_all(dye("white"));
         start = processor_seconds();
-        rendered(scene, 16, 0, kept);
+        rendered(scene, 16, 0, prepared);
         state.counters["time_over_white"] = open_seconds / (processor_seconds() - start);
         Differences from_real, of_seeds;
         for (const std::string &name : dye_names()) {
             scene.fabrics[0].colours.dye_all(dye(name));
             set_dye(*open.image.depths, "", dye(name));
-            const RenderResult real = rendered(scene, 32, 1, kept);
+            const RenderResult real = rendered(scene, 32, 1, prepared);
             from_real.add(open.image, real.image);
-            of_seeds.add(rendered(scene, 32, 2, kept).image, real.image);
+            of_seeds.add(rendered(scene, 32, 2, prepared).image, real.image);
         }
         state.counters["error"] = mean(from_real.pixels);
         state.counters["error_p99"] = p99(from_real.pixels);

@@ -46,13 +46,13 @@ TEST(Furnace, LossyThinClothIsSeen) { // negative control
     EXPECT_LT(mean_difference(furnace(thin(satin(0.3), 0.68))), -4e-3);
 }
 
-TEST(KeptMaterials, LeaveThePictureAsItIs) {
-    KeptMaterials kept;
+TEST(PreparedScene, LeavesThePictureAsItIs) {
+    PreparedScene prepared;
     for (const double dye : {0.3, 0.6}) {
         const Scene scene = furnace(satin(dye));
-        EXPECT_EQ(render(scene, quick(4), {}, &kept).image.transport,
+        EXPECT_EQ(render(scene, quick(4), {}, &prepared).image.transport,
                   render(scene, quick(4)).image.transport);
-        EXPECT_EQ(kept.size(), 1u);
+        EXPECT_EQ(prepared.use().tables.made, 1u);
     }
 }
 

@@ -27,9 +27,9 @@ Scene scaled(Scene scene, double scale) {
 
 TEST(Scale, APowerOfTwoLeavesEveryBit) {
     const Scene scene = folded_satin(24, 24);
-    KeptMaterials kept;
+    PreparedScene prepared;
     const auto picture = [&](double scale) {
-        return render(scaled(scene, scale), quick(16), {}, &kept).image.transport;
+        return render(scaled(scene, scale), quick(16), {}, &prepared).image.transport;
     };
     for (const int power : {-20, -10, 10, 20})
         EXPECT_EQ(picture(std::ldexp(1.0, power)), picture(1.0)) << power;
@@ -37,11 +37,11 @@ TEST(Scale, APowerOfTwoLeavesEveryBit) {
 
 TEST(Scale, MillimetresAndKilometresGiveThePictureOfMetres) {
     const Scene scene = folded_satin(24, 24);
-    KeptMaterials kept;
-    const std::vector<float> picture = render(scene, quick(64), {}, &kept).image.transport;
+    PreparedScene prepared;
+    const std::vector<float> picture = render(scene, quick(64), {}, &prepared).image.transport;
     for (const double scale : {1e-5, 1e-3, 1e3}) {
         const std::vector<float> other =
-            render(scaled(scene, scale), quick(64), {}, &kept).image.transport;
+            render(scaled(scene, scale), quick(64), {}, &prepared).image.transport;
         double sum = 0, difference = 0;
         for (std::size_t i = 0; i < picture.size(); ++i) {
             sum += static_cast<double>(picture[i]);

@@ -363,11 +363,11 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
 }
 
 RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Progress &progress,
-                           KeptMaterials *kept) {
+                           PreparedScene *prepared) {
     settings.aovs = {"object"};
     // One sample does not tell its noise
     settings.denoise = settings.denoise && settings.stop.samples_per_pixel > 1;
-    RenderResult rendered = render(scene, settings, progress, kept);
+    RenderResult rendered = render(scene, settings, progress, prepared);
     keep_coverage(rendered.image);
     return rendered;
 }
@@ -387,7 +387,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     TryOnResult result{.report = std::move(stage.shown.report)};
     add_spectrum_warnings(dyes, lamps, result);
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
-    KeptMaterials kept(job.cache);
+    PreparedScene prepared(job.cache);
     const bool open = dyes.front().spectrum && leave_dye_open(job, scene);
     const std::size_t at_once = open ? dyes.size() : 1; // dyes of one render
     const std::size_t count = shapes * dyes.size();
@@ -403,7 +403,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
             stage.meshes.show(0, frame, scene.surfaces[0]);
         if (dyes[first].spectrum)
             scene.fabrics[0].colours.dye_all(*dyes[first].spectrum);
-        RenderResult rendered = render_try_on(scene, job.render, part, &kept);
+        RenderResult rendered = render_try_on(scene, job.render, part, &prepared);
         result.stats.push_back(rendered.stats);
         result.interrupted = rendered.stats.interrupted;
         add_warnings(rendered, result);

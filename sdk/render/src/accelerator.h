@@ -2,6 +2,7 @@
 // The BVH: the one file of the renderer that knows Embree.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -32,12 +33,20 @@ struct RayPacket {
 
 class Accelerator {
   public:
-    // Throws Interrupted where progress.stop becomes true, and Error for a scene too large.
-    // \param centre subtracted from every position before it becomes a float
-    Accelerator(const Scene &scene, const glm::dvec3 &centre, const Progress &progress);
+    Accelerator();
     ~Accelerator();
     Accelerator(const Accelerator &) = delete;
     Accelerator &operator=(const Accelerator &) = delete;
+
+    // Makes it that of a scene. Throws Interrupted where progress.stop becomes true, and Error for
+    // a scene too large.
+    // \param centre subtracted from every position before it becomes a float
+    // \param keep the next update takes over the objects that are equal in both scenes; it need not
+    // find this one. Else the scene must outlive the rays
+    void update(const Scene &scene, const glm::dvec3 &centre, bool keep, const Progress &progress);
+    // By all updates.
+    std::size_t objects_built() const;
+    std::size_t objects_kept() const;
 
     // Nearest hit nearer than `farthest`; false where there is none.
     bool intersect(const glm::vec3 &origin, const glm::vec3 &direction, float farthest,

@@ -61,7 +61,7 @@ void add_features(Film &film, int x, int y, const FirstHit &first) {
 // All passes of one render with K channels.
 template <int K> class Passes {
   public:
-    Passes(const PreparedScene &prepared, const RenderSettings &settings, Film &film,
+    Passes(const TracedScene &prepared, const RenderSettings &settings, Film &film,
            FilmKeeper &keeper, const Progress &progress)
         : prepared_(prepared), settings_(settings), film_(film), keeper_(keeper),
           progress_(progress) {}
@@ -212,7 +212,7 @@ template <int K> class Passes {
         return true;
     }
 
-    const PreparedScene &prepared_;
+    const TracedScene &prepared_;
     const RenderSettings &settings_;
     Film &film_;
     FilmKeeper &keeper_;
@@ -224,7 +224,7 @@ template <int K> class Passes {
 
 } // namespace
 
-void trace_passes(const PreparedScene &prepared, const RenderSettings &settings, Film &film,
+void trace_passes(const TracedScene &prepared, const RenderSettings &settings, Film &film,
                   FilmKeeper &keeper, const Progress &progress) {
     switch (settings.channels) {
     case 8:

@@ -3,13 +3,13 @@
 
 #include "film.h"
 #include "film_keeper.h"
-#include "prepared_scene.h"
+#include "traced_scene.h"
 #include "tsuya/sdk/progress.h"
 
 namespace tsuya {
 
 // Throws Error where after the first pass more than a small share of the samples is not finite.
-void trace_passes(const PreparedScene &prepared, const RenderSettings &settings, Film &film,
+void trace_passes(const TracedScene &prepared, const RenderSettings &settings, Film &film,
                   FilmKeeper &keeper, const Progress &progress);
 
 } // namespace tsuya

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "channels.h"
-#include "prepared_scene.h"
 #include "sampler.h"
+#include "traced_scene.h"
 
 namespace tsuya {
 
@@ -25,7 +25,7 @@ struct FirstHit {
 
 template <int K> class PathTracer {
   public:
-    explicit PathTracer(const PreparedScene &scene) : scene_(scene) {}
+    explicit PathTracer(const TracedScene &scene) : scene_(scene) {}
 
     // Transport of each light group through random points of a pixel.
     // \param samplers one a sample; a packet of them is traced together
@@ -60,7 +60,7 @@ template <int K> class PathTracer {
     bool is_last(const Path &path) const;
     bool survives(Path &path) const;
 
-    const PreparedScene &scene_;
+    const TracedScene &scene_;
     std::vector<ShadowRay> shadow_rays_{}; // of the camera's vertices, to be traced in packets
     std::uint64_t rays_ = 0;
 };

@@ -11,7 +11,7 @@
 #include "film.h"
 #include "film_keeper.h"
 #include "passes.h"
-#include "prepared_scene.h"
+#include "traced_scene.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/detail/memory.h"
 #include "tsuya/sdk/detail/threads.h"
@@ -93,6 +93,7 @@ RenderResult result_of(const Film &film, const Scene &scene, const RenderSetting
     stats.error_asked = settings.stop.relative_error;
     if (stats.error_asked)
         stats.error_reached_share = film.share_within(*stats.error_asked);
+    stats.samples = film.samples();
     stats.rays = film.rays;
     stats.not_finite = film.not_finite;
     for (const Object &object : scene.objects)
@@ -109,24 +110,33 @@ RenderResult result_of(const Film &film, const Scene &scene, const RenderSetting
 }
 
 RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
-                            const Progress &progress, KeptMaterials *kept) {
+                            const Progress &progress, PreparedScene *kept) {
     const Clock::time_point start = Clock::now();
     double build_seconds = 0;
+    std::vector<Phase> phases;
+    PreparedScene own;
+    PreparedScene &prepared = kept ? *kept : own;
+    const PreparedUse before = prepared.use();
     Film film(scene, settings);
     const auto result_so_far = [&] {
         RenderResult result = result_of(film, scene, settings);
         result.stats.build_seconds = build_seconds;
         result.stats.seconds = seconds_since(start);
+        result.stats.phases = phases;
+        result.stats.prepared = prepared.use().since(before);
         return result;
     };
     FilmKeeper keeper(scene, settings, film, result_so_far);
     try {
         progress("prepare", 0);
-        const PreparedScene prepared(scene, plan(scene, settings), !settings.skip,
-                                     {.count = settings.channels}, kept, progress);
+        const TracedScene traced(scene, plan(scene, settings), !settings.skip,
+                                 {.count = settings.channels}, prepared, kept != nullptr, progress);
         build_seconds = seconds_since(start);
-        film.most_dye = prepared.most_dye;
-        trace_passes(prepared, settings, film, keeper, progress);
+        film.most_dye = traced.most_dye;
+        phases = traced.phases;
+        const PhaseClock of_trace;
+        trace_passes(traced, settings, film, keeper, progress);
+        phases.push_back(of_trace.end("trace"));
     } catch (const Interrupted &) {
         // Stopped while the scene was prepared: the film has what an earlier run left
     }
@@ -134,14 +144,17 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     keeper.finish();
     RenderResult result = result_so_far();
     if (settings.denoise && !interrupted) {
+        const PhaseClock of_denoise;
         result.stats.denoise_change = denoise(film, scene.camera, result.image, progress);
         interrupted = !result.stats.denoise_change;
         if (interrupted)
             result = result_so_far();
         else
             result.image.metadata["denoised"] = std::to_string(*result.stats.denoise_change);
+        result.stats.phases.push_back(of_denoise.end("denoise"));
         result.stats.seconds = seconds_since(start);
     }
+    result.stats.peak_memory_bytes = detail::peak_memory();
     result.stats.interrupted = interrupted;
     if (!interrupted && !settings.checkpoint.empty())
         result.image.metadata["render_key"] = render_key(keeper.fingerprint(), settings.stop);
@@ -165,14 +178,14 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
 std::vector<std::string> aov_names() { return {"coverage", "depth", "normal", "warp", "object"}; }
 
 RenderResult render(const Scene &scene, const RenderSettings &asked, const Progress &progress,
-                    KeptMaterials *kept) {
+                    PreparedScene *prepared) {
     check_scene(scene);
     check_settings(scene, asked);
     const RenderSettings settings = as_planned(scene, asked);
     check_memory(scene, settings);
     RenderResult result;
     detail::run_with_threads(settings.threads,
-                             [&] { result = render_checked(scene, settings, progress, kept); });
+                             [&] { result = render_checked(scene, settings, progress, prepared); });
     return result;
 }
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "prepared_scene.h"
+#include "traced_scene.h"
 
 namespace tsuya {
 
@@ -14,7 +14,7 @@ namespace tsuya {
 class Vertex {
   public:
     // \param direction of the ray that hit the point
-    Vertex(const PreparedScene &scene, const SurfacePoint &point, const glm::vec3 &direction)
+    Vertex(const TracedScene &scene, const SurfacePoint &point, const glm::vec3 &direction)
         : point_(point), shading_(scene.shading[point.cloth]),
           to_viewer_(point.frame.to_local(-direction)), view_(shading_.view_terms(to_viewer_)) {}
 

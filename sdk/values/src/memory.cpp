@@ -102,6 +102,12 @@ std::uint64_t available_memory(const fs::path &root) {
     return std::min({left_by_machine(root), left_by_groups(root), left_by_address_space(root)});
 }
 
+std::uint64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
+}
+
 std::string byte_text(std::uint64_t bytes) {
     if (bytes < 1000)
         return std::to_string(bytes) + " bytes";

@@ -98,9 +98,9 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
 /// Renders the scene of a try-on with one AOV, `coverage`: 1 where the garment fills
 /// the pixel, else 0; compare_lamps counts these pixels. Replaces `settings.aovs`. Throws Error as
 /// render.
-/// \param kept see render
+/// \param prepared see render
 RenderResult render_try_on(const Scene &scene, RenderSettings settings,
-                           const Progress &progress = {}, KeptMaterials *kept = nullptr);
+                           const Progress &progress = {}, PreparedScene *prepared = nullptr);
 
 /// What a try-on made.
 struct TryOnResult {

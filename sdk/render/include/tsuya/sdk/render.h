@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "tsuya/sdk/error.h"
-#include "tsuya/sdk/kept_materials.h"
+#include "tsuya/sdk/phase.h"
 #include "tsuya/sdk/plan.h"
+#include "tsuya/sdk/prepared_scene.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/scene.h"
 #include "tsuya/sdk/spectral_image.h"
@@ -87,9 +88,13 @@ struct RenderStats {
     /// By which share RenderSettings::denoise changed the mean of the picture; empty where it was
     /// not done. The errors are those of the picture before.
     std::optional<double> denoise_change{};
+    std::uint64_t samples = 0; ///< of all pixels
     std::uint64_t rays = 0;
     std::uint64_t not_finite = 0; ///< samples left out because they were NaN or infinite
     std::uint64_t triangles = 0;
+    std::vector<Phase> phases{};         ///< those that were done of: bvh, tables, trace, denoise
+    PreparedUse prepared{};              ///< what this render built, and what it found
+    std::uint64_t peak_memory_bytes = 0; ///< of the process, up to the end of the render
     bool interrupted = false;
 };
 
@@ -112,9 +117,9 @@ std::string render_key(const Scene &scene, const RenderSettings &settings);
 /// for more memory than is available, and where more than 1 % of the first samples are not finite.
 /// Where progress.stop becomes true, returns what it has with stats.interrupted set; stopped during
 /// preparation that is a picture of 0, or what the checkpoint had.
-/// \param kept takes the models' tables from renders before and keeps them for those after; may be
-/// null. The picture is the same.
+/// \param prepared gives what renders before have built and gets what this one builds; may be null.
+/// The picture is the same.
 RenderResult render(const Scene &scene, const RenderSettings &settings,
-                    const Progress &progress = {}, KeptMaterials *kept = nullptr);
+                    const Progress &progress = {}, PreparedScene *prepared = nullptr);
 
 } // namespace tsuya

@@ -14,6 +14,9 @@ namespace tsuya::detail {
 /// \param root of the file system: proc and sys/fs/cgroup are read below it
 std::uint64_t available_memory(const std::filesystem::path &root = "/");
 
+/// The most bytes of memory that this process has had at once.
+std::uint64_t peak_memory();
+
 /// Such as "512 bytes", "1.50 MB", "34.4 GB".
 std::string byte_text(std::uint64_t bytes);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A scene made ready for tracing: BVH, lights, materials, camera.
+// A scene made ready for one render: BVH, lights, materials, camera.
 
 #include <array>
 #include <cstdint>
@@ -16,8 +16,9 @@
 #include "prepared_print.h"
 #include "shading.h"
 #include "tsuya/sdk/frame.h"
-#include "tsuya/sdk/kept_materials.h"
+#include "tsuya/sdk/phase.h"
 #include "tsuya/sdk/plan.h"
+#include "tsuya/sdk/prepared_scene.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/scene.h"
 #include "tsuya/sdk/spectrum.h"
@@ -32,7 +33,7 @@ struct SurfacePoint {
     Frame frame;                // its normal is the shading normal
     glm::vec3 warp;             // of the cloth: also where the frame has the weft in its place
     std::uint32_t cloth;
-    std::uint32_t colours; // into PreparedScene::colours
+    std::uint32_t colours; // into TracedScene::colours
     glm::vec2 uv;          // of printed cloth, metres
 
     // False where the triangle is too small for float numbers to have its normal.
@@ -44,17 +45,20 @@ struct Colours {
     ChannelValues dye{}, transmittance{}, weft{}, warp{}, weft_body{}, warp_body{};
 };
 
-struct PreparedScene {
-    // \param kept null where nothing is kept
+struct TracedScene {
+    // \param prepared gives what it has, gets what is made, and must outlive this
+    // \param keep for further renders with it
     // Throws Error as resolve, and Interrupted where progress.stop becomes true.
-    PreparedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts,
-                  const SpectralBasis &basis, KeptMaterials *kept, const Progress &progress);
+    TracedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts,
+                const SpectralBasis &basis, PreparedScene &prepared, bool keep,
+                const Progress &progress);
 
     const Scene &scene;
     Plan plan;
     glm::dvec3 centre; // of the scene; the origin of all that is traced
-    Accelerator accelerator;
+    const Accelerator &accelerator;
     Lights lights;
+    std::vector<Phase> phases{}; // of the making
     // What the cloths can show of each dye of the plan at most
     std::array<double, kMostDyes> most_dye{1, 1};
     CameraRays camera;
@@ -97,7 +101,7 @@ struct PreparedScene {
         Repeat repeat;
     };
     void prepare_sides();
-    void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials *kept,
+    void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials &materials,
                          const Progress &progress);
     void prepare_prints(const SpectralBasis &basis);
     void find_most_dye(const std::vector<VaryingColours> &varying, KeptMaterials &materials,
