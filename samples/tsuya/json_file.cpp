@@ -74,7 +74,22 @@ Json json_of(const std::vector<garment::Finding> &findings) {
 
 } // namespace
 
-Json json_of(const RenderStats &stats) {
+Json json_of(const RenderStats &stats, const std::vector<Skip> &skips) {
+    Json phases = Json::array(), skipped = Json::array();
+    double trace_cpu_seconds = 0;
+    for (const Phase &phase : stats.phases) {
+        phases.push_back(
+            {{"name", phase.name}, {"seconds", phase.seconds}, {"cpu_seconds", phase.cpu_seconds}});
+        if (phase.name == "trace")
+            trace_cpu_seconds = phase.cpu_seconds;
+    }
+    for (const Skip &skip : skips)
+        skipped.push_back({{"what", skip.what}, {"saves", skip.saves}});
+    const auto rate = [&](std::uint64_t count) {
+        return trace_cpu_seconds > 0 ? Json(static_cast<double>(count) / trace_cpu_seconds)
+                                     : Json();
+    };
+    const PreparedUse &prepared = stats.prepared;
     return {{"schema", "tsuya-render-stats 1"},
             {"samples_per_pixel", stats.samples_per_pixel},
             {"seconds", stats.seconds},
@@ -86,6 +101,19 @@ Json json_of(const RenderStats &stats) {
             {"rays", stats.rays},
             {"not_finite", stats.not_finite},
             {"triangles", stats.triangles},
+            {"samples", stats.samples},
+            {"phases", phases},
+            {"samples_per_cpu_second", rate(stats.samples)},
+            {"rays_per_cpu_second", rate(stats.rays)},
+            {"peak_memory_bytes", stats.peak_memory_bytes},
+            {"objects_built", prepared.objects_built},
+            {"objects_kept", prepared.objects_kept},
+            {"tables_made", prepared.tables.made},
+            {"tables_read", prepared.tables.read},
+            {"tables_shared", prepared.tables.shared},
+            {"cache_problem",
+             prepared.tables.cache_problem.empty() ? Json() : Json(prepared.tables.cache_problem)},
+            {"skipped", skipped},
             {"interrupted", stats.interrupted}};
 }
 

@@ -3,12 +3,14 @@
 /// What commands print for machines.
 
 #include <filesystem>
+#include <vector>
 
 #include "json.h"
 
 namespace tsuya {
 struct ErrorMeasures;
 struct RenderStats;
+struct Skip;
 } // namespace tsuya
 
 namespace tsuya::garment {
@@ -18,7 +20,8 @@ struct Report;
 namespace tsuya::program {
 
 /// `tsuya-render-stats 1`
-Json json_of(const RenderStats &stats);
+/// \param skips what the plan left out
+Json json_of(const RenderStats &stats, const std::vector<Skip> &skips);
 /// `tsuya-garment-check 1`
 Json json_of(const garment::Report &report);
 

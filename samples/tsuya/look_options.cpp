@@ -56,6 +56,14 @@ void add_cache(Options &options, bool &no_cache) {
                  "~/.cache/tsuya");
 }
 
+Option &add_video(Options &options, int &fps) {
+    return options
+        .option("--video", &fps, "FPS",
+                "also make each sequence of pictures an MP4 of so many frames per second; needs "
+                "ffmpeg")
+        .range(1, 240);
+}
+
 TableCache cache_unless(bool no_cache) {
     return {.folder = no_cache ? std::filesystem::path() : user_cache_folder()};
 }

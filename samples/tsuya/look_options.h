@@ -48,6 +48,9 @@ void add_threads(Options &options, int &threads);
 
 /// `--no-cache`.
 void add_cache(Options &options, bool &no_cache);
+/// `--video`, frames per second; 0: none
+Option &add_video(Options &options, int &fps);
+
 /// The user's cache of tables, or none.
 TableCache cache_unless(bool no_cache);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "command.h"
 #include "json_file.h"
@@ -11,6 +12,7 @@
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/scene_file.h"
+#include "tsuya/scene/video.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
@@ -29,6 +31,7 @@ struct Render final : Command {
     std::optional<std::uint32_t> seed{};
     std::vector<int> crop{};
     std::vector<std::string> aovs{};
+    int video_fps = 0;
     double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
     bool resume = false, explains = false, denoises = false, no_cache = false;
 
@@ -65,10 +68,12 @@ struct Render final : Command {
         o.option("--aov", &aovs, "A,B,...", "AOVs to write beside the light transport")
             .with_commas()
             .one_of(aov_names());
-        o.option("--frames", &frames, "N",
-                 "number of frames of a scene that moves, each with results of its own: "
-                 "OUT-0000.exr and on")
-            .range(1, 9999);
+        const Option &sequence =
+            o.option("--frames", &frames, "N",
+                     "number of frames of a scene that moves, each with results of its own: "
+                     "OUT-0000.exr and on")
+                .range(1, 9999);
+        add_video(o, video_fps).needs(sequence);
         o.flag(
             "--denoise", &denoises,
             "filter the noise out of the finished picture, which is then one to look at, not one "
@@ -103,6 +108,7 @@ struct Render final : Command {
     Status render_scene(Console &console) {
         if (!explains)
             check_output();
+        const PhaseClock of_load;
         scene::SceneFile file = scene::read_scene_file(scene, console.progress());
         for (std::vector<scene::MeshEntry> *entries : {&file.garments, &file.bodies})
             for (scene::MeshEntry &entry : *entries)
@@ -118,6 +124,7 @@ struct Render final : Command {
         for (const scene::MeshReport &mesh : built.reports)
             console.warnings(mesh.report, mesh.mesh.string());
         console.warnings(file.warnings);
+        load_ = of_load.end("load");
         if (explains) {
             explain_plan(built, settings);
             return kDone;
@@ -135,6 +142,8 @@ struct Render final : Command {
             if (status != kDone)
                 return status;
         }
+        if (frames && video_fps > 0)
+            write_videos(file, console);
         return kDone;
     }
 
@@ -142,10 +151,12 @@ struct Render final : Command {
                         const RenderSettings &settings, PreparedScene &prepared, Console &console) {
         if (resume && !frames && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
-        const RenderResult result = render(shown, settings, console.progress(), &prepared);
+        RenderResult result = render(shown, settings, console.progress(), &prepared);
         for (const Problem &warning : result.warnings)
             console.warning(warning);
-        write_results(file, result);
+        result.stats.phases.insert(result.stats.phases.begin(),
+                                   std::exchange(load_, Phase{"load"}));
+        write_results(file, shown, settings, result);
         if (!result.stats.interrupted)
             return kDone;
         console.error(fs::exists(settings.checkpoint)
@@ -237,6 +248,24 @@ struct Render final : Command {
                         frame);
     }
 
+    /// Of a lamp's pictures.
+    fs::path video_of(const NamedLamp &lamp) const {
+        fs::path path = output;
+        return path.replace_filename(output.stem().string() + "-" + lamp.name + ".mp4");
+    }
+
+    /// A video that cannot be made is a warning: its pictures are there.
+    void write_videos(const scene::SceneFile &file, Console &console) const {
+        for (const NamedLamp &lamp : file.output.lamps)
+            try {
+                const fs::path video = video_of(lamp);
+                scene::write_video(video, fs::path(video).replace_extension(), video_fps);
+                std::cout << video.string() << "\n";
+            } catch (const Error &problems) {
+                console.warnings(problems);
+            }
+    }
+
     /// Before the scene is read.
     void check_output() const {
         if (output.empty())
@@ -257,6 +286,9 @@ struct Render final : Command {
     }
 
     template <class Act> void for_each_place(const scene::SceneFile &file, Act &&act) const {
+        if (frames && video_fps > 0)
+            for (const NamedLamp &lamp : file.output.lamps)
+                act(video_of(lamp));
         for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames.value_or(1)); ++frame)
             for_each_place_of(file, frame, act);
     }
@@ -279,7 +311,9 @@ struct Render final : Command {
         }
     }
 
-    void write_results(const scene::SceneFile &file, const RenderResult &result) const {
+    void write_results(const scene::SceneFile &file, const Scene &shown,
+                       const RenderSettings &settings, RenderResult &result) const {
+        const PhaseClock of_write;
         // Stopped before the first sample: what stands under the name is not replaced by nothing
         if (result.stats.interrupted && result.stats.samples_per_pixel == 0)
             return;
@@ -294,12 +328,14 @@ struct Render final : Command {
                 write_png(path, scene::picture_under(result.image, {&lamp, 1}, file.output.look));
                 std::cout << path.string() << "\n";
             }
+        result.stats.phases.push_back(of_write.end("write"));
         if (!stats.empty())
-            write_json(of_frame(stats, frame_), json_of(result.stats));
+            write_json(of_frame(stats, frame_), json_of(result.stats, plan(shown, settings).skips));
     }
 
   private:
     std::size_t frame_ = 0; ///< that is rendered
+    Phase load_{};          ///< of the first frame that is rendered
 };
 
 } // namespace

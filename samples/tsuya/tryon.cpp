@@ -50,6 +50,18 @@ struct TryOn final : Command {
         o.flag("--morph-targets", &job.morph_targets,
                "take the garment's morph targets (glTF) as frames, too")
             .needs(mesh);
+        o.option("--turntable", &job.turntable, "N",
+                 "turn garment and body once before the camera and the lights, in N views, each "
+                 "with pictures of its own: DYE-LAMP-0000.png and on")
+            .range(2, 9999)
+            .check([this] {
+                if (job.turntable > 0 && (!job.frames.empty() || job.morph_targets))
+                    throw Error(Problem{"a figure that turns and has frames", "",
+                                        "expected one of --turntable and --frames"});
+                if (job.turntable > 0 && job.tolerance_px)
+                    throw Error(Problem{"triangles as fine as one side needs them", "",
+                                        "expected --level or --tolerance"});
+            });
         o.option("--body", &job.body, "MESH", "mesh that wears the garment").check([this] {
             if (garment.empty() && job.frames.empty() && !job.body.empty())
                 throw Error(
@@ -122,6 +134,13 @@ struct TryOn final : Command {
         add_threads(o, job.render.threads);
         o.option("--seed", &job.render.seed, "N", "random seed");
         add_cache(o, no_cache);
+        o.flag("--resume", &job.resume,
+               "keep renders in DIR that are complete and of the same scene and settings");
+        add_video(o, job.video_fps).check([this] {
+            if (job.video_fps > 0 && job.turntable == 0 && job.frames.empty() && !job.morph_targets)
+                throw Error(Problem{"there is no sequence of pictures", "",
+                                    "expected --turntable, --frames or --morph-targets"});
+        });
     }
 
     Status run(Console &console) override {

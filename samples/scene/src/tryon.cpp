@@ -9,6 +9,8 @@
 #include "file_opacity.h"
 #include "patterns.h"
 #include "scene_meshes.h"
+#include "tryon_cloths.h"
+#include "tryon_files.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/sheet.h"
@@ -17,8 +19,10 @@
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/studio.h"
+#include "tsuya/scene/video.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
+#include "turntable.h"
 
 namespace tsuya::scene {
 namespace {
@@ -50,9 +54,6 @@ struct TryOnDye {
     std::optional<Spectrum> spectrum; ///< empty: the fabric's own
     std::vector<std::string> warnings{};
 };
-
-/// What the files of a fabric's own dye are named after.
-std::string own_dye_name(const TryOn &job) { return job.fabric.stem().stem().string(); }
 
 std::vector<TryOnDye> parse_dyes(const TryOn &job) {
     check_dyes(job.dyes);
@@ -86,46 +87,6 @@ void add_object(Scene &scene, const char *name, Surface surface, Fabric fabric) 
     scene.fabrics.push_back(std::move(fabric));
     scene.objects.push_back({name, {index}, {of_fabric}});
 }
-
-/// The fabrics of a garment: its own first, each file once.
-struct Cloths {
-    std::vector<Fabric> fabrics{};
-    std::optional<FabricIndex> back{};
-    std::vector<PanelEntry> entries{};
-
-    Cloths(const TryOn &job, const Progress &progress) {
-        const auto index = [&](const fs::path &file) -> std::optional<std::size_t> {
-            if (file.empty())
-                return {};
-            const auto known = std::find(files_.begin(), files_.end(), file);
-            if (known == files_.end()) {
-                files_.push_back(file);
-                fabrics.push_back(read_fabric(file, progress));
-                return files_.size() - 1;
-            }
-            return static_cast<std::size_t>(known - files_.begin());
-        };
-        fabrics.push_back(read_fabric(job.fabric, progress));
-        files_.emplace_back(); // dyed for each render, so that no panel shares it
-        if (const auto behind = index(job.back))
-            back = FabricIndex{static_cast<std::uint32_t>(*behind)};
-        for (const PanelCloth &panel : job.panels)
-            entries.push_back({.panels = panel.panels,
-                               .where = "panel '" + panel.panels + "'",
-                               .fabric = index(panel.fabric),
-                               .back = index(panel.back)});
-    }
-    bool need_frames() const { return std::any_of(fabrics.begin(), fabrics.end(), needs_frames); }
-    std::vector<DressingFabric> dressing() const {
-        std::vector<DressingFabric> all;
-        for (const Fabric &fabric : fabrics)
-            all.push_back({.needs_frames = needs_frames(fabric)});
-        return all;
-    }
-
-  private:
-    std::vector<fs::path> files_{};
-};
 
 /// Key light, fill light and backdrop about what the camera frames.
 void light(Scene &scene, const Bounds &bounds, double azimuth) {
@@ -180,26 +141,6 @@ void keep_coverage(SpectralImage &image) {
         }
 }
 
-constexpr const char *kSheet = "sheet.png";
-
-std::string transport_name(const std::string &dye, const std::string &number) {
-    return dye + number + ".exr";
-}
-
-std::string picture_name(const std::string &dye, const std::string &lamp,
-                         const std::string &number) {
-    return dye + "-" + lamp + number + ".png";
-}
-
-/// The number of a frame at the end of a file's name, as frame_suffix writes it; empty where there
-/// is none.
-std::string number_in(const fs::path &file) {
-    const std::string stem = file.stem().string();
-    const std::size_t dash = stem.find_last_not_of("0123456789");
-    const bool numbered = dash != std::string::npos && stem[dash] == '-' && stem.size() - dash > 4;
-    return numbered ? stem.substr(dash) : "";
-}
-
 /// \param number of the frame, `-0000`, or empty
 void write_pictures(const SpectralImage &image, const std::string &name, const std::string &number,
                     const std::vector<NamedLamp> &lamps, const TryOn &job, Sheet &sheet,
@@ -220,10 +161,43 @@ void write_pictures(const SpectralImage &image, const std::string &name, const s
 /// A try-on with what further frames of it need.
 struct Stage {
     TryOnScene shown{};
-    SceneMeshes meshes; ///< the garment first
+    SceneMeshes meshes;           ///< the garment first
+    glm::dvec3 axis{0};           ///< of a turntable
+    std::vector<Surface> still{}; ///< surfaces of the figure, before they turn
+
+    /// Brings the figure into a frame after the first: its shape, or its turn.
+    void show(const TryOn &job, std::size_t frame) {
+        Scene &scene = shown.scene;
+        if (job.turntable == 0)
+            return meshes.show(0, frame, scene.surfaces[0]);
+        if (still.empty())
+            still.assign(scene.surfaces.begin(),
+                         scene.surfaces.begin() + static_cast<std::ptrdiff_t>(meshes.count()));
+        for (std::size_t i = 0; i < still.size(); ++i)
+            scene.surfaces[i] =
+                turned(still[i], axis, turn_of(static_cast<int>(frame), job.turntable));
+    }
 };
 
+/// What the fields say together.
+void check_sequence(const TryOn &job) {
+    const bool turns = job.turntable > 0;
+    Problems problems;
+    problems.need(job.turntable == 0 || (job.turntable >= 2 && job.turntable <= 9999),
+                  std::to_string(job.turntable) + " views", "turntable", "expected 2 to 9999");
+    problems.need(!turns || (job.frames.empty() && !job.morph_targets),
+                  "a figure that turns and has frames", "turntable", "expected one of them");
+    problems.need(!turns || !job.tolerance_px,
+                  "triangles as fine as one side of a turning figure needs them", "tolerance_px",
+                  "expected a level, or a tolerance in metres");
+    problems.need(job.video_fps >= 0 && job.video_fps <= 240,
+                  std::to_string(job.video_fps) + " frames per second", "video_fps",
+                  "expected 1 to 240, or 0 for no video");
+    problems.throw_if_any();
+}
+
 Stage make_stage(const TryOn &job, const Progress &progress) {
+    check_sequence(job);
     Stage stage{.meshes = SceneMeshes(progress)};
     Scene &scene = stage.shown.scene;
     const Cloths cloths(job, progress);
@@ -272,7 +246,15 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
                                      .options = body_options,
                                      .tolerance_px = job.tolerance_px}),
                    {.name = "body", .colours = {.dye = Spectrum::constant(kBodyReflectance)}});
-    add_studio(job, stage.meshes.points(), scene);
+    const std::vector<glm::dvec3> &points = stage.meshes.points();
+    if (job.turntable > 0) {
+        Bounds bounds;
+        bounds.add(points);
+        stage.axis = 0.5 * (bounds.lower + bounds.upper);
+        add_studio(job, all_turns(points, stage.axis, job.turntable), scene);
+    } else {
+        add_studio(job, points, scene);
+    }
     stage.meshes.refine(scene);
     stage.shown.report = stage.meshes.report(0);
     check_scene(scene);
@@ -292,6 +274,28 @@ bool leave_dye_open(const TryOn &job, Scene &scene) {
         scene.open_dyes.clear();
         return false;
     }
+}
+
+RenderSettings settings_of(RenderSettings settings) {
+    settings.aovs = {"object"};
+    // One sample does not tell its noise
+    settings.denoise = settings.denoise && settings.stop.samples_per_pixel > 1;
+    return settings;
+}
+
+/// A video that cannot be made is a warning: its pictures are there.
+void write_videos(const std::vector<TryOnDye> &dyes, const std::vector<NamedLamp> &lamps,
+                  const TryOn &job, TryOnResult &result) {
+    for (const TryOnDye &dye : dyes)
+        for (const NamedLamp &lamp : lamps)
+            try {
+                const fs::path file = job.output / video_name(dye.name, lamp.name);
+                write_video(file, job.output / (dye.name + "-" + lamp.name), job.video_fps);
+                result.files.push_back(file);
+            } catch (const Error &error) {
+                const std::vector<Problem> &problems = error.problems();
+                result.warnings.insert(result.warnings.end(), problems.begin(), problems.end());
+            }
 }
 
 // Those of the fabrics are the same in every render.
@@ -326,32 +330,6 @@ void check_dyes(const std::vector<std::string> &specs) {
     }
 }
 
-std::vector<fs::path> replaced_files(const TryOn &job) {
-    const bool one_shape = job.frames.empty(), numbered = !one_shape || job.morph_targets;
-    const std::vector<std::string> lamps = expand_lamp_sets(job.lamps);
-    std::vector<std::string> dyes;
-    std::transform(job.dyes.begin(), job.dyes.end(), std::back_inserter(dyes), file_stem_of);
-    if (dyes.empty() || job.keeps_own_dye)
-        dyes.push_back(own_dye_name(job));
-    const auto is_result = [&](const std::string &name, const std::string &number) {
-        return std::any_of(dyes.begin(), dyes.end(), [&](const std::string &dye) {
-            return name == transport_name(dye, number) ||
-                   std::any_of(lamps.begin(), lamps.end(), [&](const std::string &lamp) {
-                       return name == picture_name(dye, file_stem_of(lamp), number);
-                   });
-        });
-    };
-    std::vector<fs::path> replaced;
-    std::error_code code;
-    for (fs::directory_iterator at(job.output, code), end; !code && at != end; at.increment(code)) {
-        const std::string name = at->path().filename().string(), number = number_in(name);
-        if ((one_shape && (name == kSheet || is_result(name, ""))) ||
-            (numbered && !number.empty() && is_result(name, number)))
-            replaced.push_back(at->path());
-    }
-    return replaced;
-}
-
 TryOn sample_try_on(const fs::path &data) {
     return {.garment = data / "dress" / "dress.obj",
             .body = data / "dress" / "dress_form.obj",
@@ -362,12 +340,9 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
     return make_stage(job, progress).shown;
 }
 
-RenderResult render_try_on(const Scene &scene, RenderSettings settings, const Progress &progress,
-                           PreparedScene *prepared) {
-    settings.aovs = {"object"};
-    // One sample does not tell its noise
-    settings.denoise = settings.denoise && settings.stop.samples_per_pixel > 1;
-    RenderResult rendered = render(scene, settings, progress, prepared);
+RenderResult render_try_on(const Scene &scene, const RenderSettings &settings,
+                           const Progress &progress, PreparedScene *prepared) {
+    RenderResult rendered = render(scene, settings_of(settings), progress, prepared);
     keep_coverage(rendered.image);
     return rendered;
 }
@@ -381,7 +356,8 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     Scene &scene = stage.shown.scene;
     if (has_own_dye(job, scene.fabrics.front()))
         dyes = {{own_dye_name(job), std::nullopt}};
-    const std::size_t shapes = stage.meshes.frame_count(0);
+    const std::size_t frames =
+        job.turntable > 0 ? static_cast<std::size_t>(job.turntable) : stage.meshes.frame_count(0);
     const OutputFolder folder(job.output);
 
     TryOnResult result{.report = std::move(stage.shown.report)};
@@ -390,7 +366,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     PreparedScene prepared(job.cache);
     const bool open = dyes.front().spectrum && leave_dye_open(job, scene);
     const std::size_t at_once = open ? dyes.size() : 1; // dyes of one render
-    const std::size_t count = shapes * dyes.size();
+    const std::size_t count = frames * dyes.size();
     for (std::size_t i = 0; i < count && !result.interrupted; i += at_once) {
         const std::size_t frame = i / dyes.size(), first = i % dyes.size();
         Progress part{.stop = progress.stop};
@@ -400,24 +376,36 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
                          static_cast<double>(count));
         };
         if (frame > 0 && first == 0)
-            stage.meshes.show(0, frame, scene.surfaces[0]);
+            stage.show(job, frame);
         if (dyes[first].spectrum)
             scene.fabrics[0].colours.dye_all(*dyes[first].spectrum);
-        RenderResult rendered = render_try_on(scene, job.render, part, &prepared);
-        result.stats.push_back(rendered.stats);
-        result.interrupted = rendered.stats.interrupted;
-        add_warnings(rendered, result);
+        const std::string number = frames > 1 ? frame_suffix(frame) : "";
+        const std::string key =
+            frames > 1 || job.resume ? render_key(scene, settings_of(job.render)) : "";
+        SpectralImage image;
+        if (job.resume)
+            image = finished(job.output / transport_name(dyes[first].name, number), key);
+        if (image.transport.empty()) {
+            RenderResult rendered = render_try_on(scene, job.render, part, &prepared);
+            result.stats.push_back(rendered.stats);
+            result.interrupted = rendered.stats.interrupted;
+            add_warnings(rendered, result);
+            image = std::move(rendered.image);
+            if (!result.interrupted && !key.empty())
+                image.metadata["render_key"] = key;
+        }
         for (std::size_t d = first; d < first + at_once; ++d) {
             if (open)
-                set_dye(*rendered.image.depths, scene.fabrics[0].name, *dyes[d].spectrum);
-            write_pictures(rendered.image, dyes[d].name, shapes > 1 ? frame_suffix(frame) : "",
-                           lamps, job, sheet, result);
+                set_dye(*image.depths, scene.fabrics[0].name, *dyes[d].spectrum);
+            write_pictures(image, dyes[d].name, number, lamps, job, sheet, result);
         }
     }
-    if (!result.interrupted && shapes == 1) {
+    if (!result.interrupted && frames == 1) {
         result.files.push_back(job.output / kSheet);
         write_png(result.files.back(), draw_sheet(sheet));
     }
+    if (!result.interrupted && frames > 1 && job.video_fps > 0)
+        write_videos(dyes, lamps, job, result);
     return result;
 }
 

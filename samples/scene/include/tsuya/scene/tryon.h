@@ -46,7 +46,11 @@ struct TryOn {
     /// Meshes of the garment's faces with other positions: each gives pictures of its own, as does
     /// the garment, which is frame 0. The camera stands still and sees all of them.
     std::vector<std::filesystem::path> frames{};
-    bool morph_targets = false;             ///< of the garment (glTF): frames before `frames`
+    bool morph_targets = false; ///< of the garment (glTF): frames before `frames`
+    /// Views of garment and body as they turn once before the camera and the lights, which stand
+    /// still, each with pictures of its own as frames have: 2 to 9999; 0: they do not turn. The
+    /// camera sees all of them whole. Without frames and tolerance_px.
+    int turntable = 0;
     std::filesystem::path body{};           ///< a mesh; empty: none
     std::filesystem::path fabric{};         ///< F.fabric.toml
     std::filesystem::path back{};           ///< F.fabric.toml seen from behind; empty: its own back
@@ -77,6 +81,10 @@ struct TryOn {
     TableCache cache{}; ///< of the fabrics' tables
     DisplayOptions look = default_look();
     std::filesystem::path output{}; ///< a folder; made where it is missing
+    /// Keeps renders in it that are complete and of the same scene and settings; their pictures are
+    /// written again.
+    bool resume = false;
+    int video_fps = 0; ///< frames per second of a video of each sequence, see video.h; 0: none
 };
 
 /// The sample dress on its dress form in the sample satin. `output` is left to the caller. Throws
@@ -99,7 +107,7 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
 /// the pixel, else 0; compare_lamps counts these pixels. Replaces `settings.aovs`. Throws Error as
 /// render.
 /// \param prepared see render
-RenderResult render_try_on(const Scene &scene, RenderSettings settings,
+RenderResult render_try_on(const Scene &scene, const RenderSettings &settings,
                            const Progress &progress = {}, PreparedScene *prepared = nullptr);
 
 /// What a try-on made.
@@ -113,9 +121,10 @@ struct TryOnResult {
 
 /// Renders once for all dyes or for each, and writes into the output folder `DYE.exr` (light
 /// transport, with the AOV `coverage` of the garment), `DYE-LAMP.png` for each lamp, and
-/// `sheet.png`. With frames, each dye and frame gives `DYE-0000.exr` and `DYE-LAMP-0000.png`, and
-/// no sheet. Where progress.stop becomes true, what is done is still written, without the sheet.
-/// Throws Error with nothing written for any wrong value of the job.
+/// `sheet.png`. With frames or a turntable, each dye and frame gives `DYE-0000.exr` and
+/// `DYE-LAMP-0000.png`, and no sheet; where they are wanted, also `DYE-LAMP.mp4`. Where
+/// progress.stop becomes true, what is done is still written, without the sheet. Throws Error with
+/// nothing written for any wrong value of the job.
 TryOnResult run(const TryOn &job, const Progress &progress = {});
 
 /// The files in the output folder that have the names of results, which `run` may replace. How many
