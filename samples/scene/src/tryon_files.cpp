@@ -5,6 +5,7 @@
 
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
+#include "tsuya/color/lamp.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
