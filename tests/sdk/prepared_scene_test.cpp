@@ -63,8 +63,9 @@ TEST(PreparedScene, BuildsNothingForOtherCamerasDyesLightsAndSettings) {
     expect_same(prepared, scene, quick(4), "camera");
     scene.fabrics[0].colours.dye = Spectrum::constant(0.7);
     expect_same(prepared, scene, quick(4), "dye");
-    scene.rectangles[0].radiance *= 2;
-    scene.rectangles[0].corner += glm::dvec3(0.1, 0, 0);
+    RectangleLight &light = std::get<RectangleLight>(scene.lights[0]);
+    light.radiance *= 2;
+    light.corner += glm::dvec3(0.1, 0, 0);
     expect_same(prepared, scene, quick(4), "light");
     RenderSettings settings = quick(4);
     settings.seed = 7;
