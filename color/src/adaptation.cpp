@@ -19,11 +19,6 @@ glm::dmat3 cat02() {
         glm::dmat3(0.7328, 0.4296, -0.1624, -0.7036, 1.6975, 0.0061, 0.0030, 0.0136, 0.9834));
 }
 
-// The matrix of `bradford` or `cat02`.
-glm::dmat3 cones_of(Adaptation adaptation) {
-    return adaptation == Adaptation::bradford ? bradford() : cat02();
-}
-
 } // namespace
 
 std::vector<std::string> adaptation_names() { return {"none", "bradford", "cat02"}; }
@@ -49,10 +44,22 @@ std::string to_string(Adaptation adaptation) {
     return "none";
 }
 
+glm::dmat3 cone_matrix(Adaptation adaptation) {
+    switch (adaptation) {
+    case Adaptation::bradford:
+        return bradford();
+    case Adaptation::cat02:
+        return cat02();
+    case Adaptation::none:
+        break;
+    }
+    return glm::dmat3(1.0);
+}
+
 bool can_adapt(Adaptation adaptation, const glm::dvec3 &from_white) {
     if (adaptation == Adaptation::none)
         return true;
-    const glm::dvec3 from = cones_of(adaptation) * from_white;
+    const glm::dvec3 from = cone_matrix(adaptation) * from_white;
     return from.x > 0 && from.y > 0 && from.z > 0;
 }
 
@@ -60,7 +67,7 @@ glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white
                              const glm::dvec3 &to_white) {
     if (adaptation == Adaptation::none)
         return glm::dmat3(1.0);
-    const glm::dmat3 cones = cones_of(adaptation);
+    const glm::dmat3 cones = cone_matrix(adaptation);
     const glm::dvec3 from = cones * from_white, to = cones * to_white;
     if (!can_adapt(adaptation, from_white))
         throw Error({"no eye can adapt to this lamp: a cone signal of its white is not positive",

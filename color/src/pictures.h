@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tsuya/color/camera_frame.h"
@@ -81,6 +82,8 @@ class Pictures {
                                         FloatCode floats) const = 0;
     /// A PNG in memory. \param name for errors
     virtual EncodedPicture decode_png(std::string_view bytes, const std::string &name) const = 0;
+    /// The bytes compressed, in the format of zlib.
+    virtual std::string deflate(std::string_view bytes) const = 0;
     virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
     /// Width and height of a text in pixels. Throws Error at `sheet.font`.
     virtual std::array<int, 2> text_size(const std::string &text, int size,

@@ -31,6 +31,10 @@ struct TryOn final : Command {
         add_garment(o);
         add_cloth(o);
         o.option("-o,--output", &job.output, "DIR", "folder for the results").required();
+        o.flag(
+            "--html", &job.page,
+            "also write page.html, which shows any lamp, and any dye where one render serves all; "
+            "not for frames");
         add_quality(o);
         look.add_to(o);
         cloth.add_data(o);

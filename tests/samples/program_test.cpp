@@ -108,12 +108,12 @@ TEST(Program, ListsWhatCanBeNamed) {
 TEST(Program, TriesTheSampleDressOn) {
     const Scratch scratch;
     const fs::path out = scratch / "new/folder";
-    const Outcome done = run(
-        scratch, {"tryon", "-o", out.string(), "--width", "40", "--height", "50", "--spp", "4"});
+    const Outcome done = run(scratch, {"tryon", "-o", out.string(), "--width", "40", "--height",
+                                       "50", "--spp", "4", "--html"});
     ASSERT_EQ(done.status, 0) << done.err;
     EXPECT_EQ(done.err, "");
     const std::vector<std::string> files = lines_of(done.out);
-    EXPECT_EQ(files.size(), 9u);
+    EXPECT_EQ(files.size(), 10u);
     EXPECT_EQ(scratch.file_count(), files.size());
     for (const char *dye : {"white", "crimson"}) {
         const SpectralImage image = read_spectral_exr(out / (std::string(dye) + ".exr"));
@@ -125,6 +125,11 @@ TEST(Program, TriesTheSampleDressOn) {
     const Image sheet = read_image(out / "sheet.png");
     EXPECT_GT(sheet.width, 3 * 40);
     EXPECT_GT(sheet.height, 2 * 50);
+    // One picture for both dyes, which can be changed
+    const std::string page = read_file(out / "page.html");
+    EXPECT_NE(page.find("\"first_dye\":\"white\""), std::string::npos);
+    EXPECT_NE(page.find("\"open\":true"), std::string::npos);
+    EXPECT_EQ(page.find("id=\"planes-1\""), std::string::npos);
 }
 
 // As a shell gives them for `--frames cloth_*.obj`, or with the option said again.
@@ -243,6 +248,32 @@ TEST(Program, RelightsAndCompares) {
     ASSERT_EQ(numbers.at("differences").size(), 3u);
     EXPECT_GT(numbers["differences"][0].at("mean"), 0.1);
     EXPECT_GT(read_image(sheet).width, 3 * 16);
+}
+
+TEST(Program, WritesALivePageOfSeveralPictures) {
+    const Scratch scratch;
+    const std::string first = (scratch / "first.exr").string(),
+                      second = (scratch / "second.exr").string(),
+                      page = (scratch / "p/page.html").string();
+    ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", first}).status, 0);
+    std::filesystem::copy_file(first, second);
+    const Outcome made =
+        run(scratch, {"compare", first, second, "--lamps", "D65,A", "--html", page});
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_NE(made.out.find(second + ": CIEDE2000"), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find(page + ": "), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find("(99th percentile) of the file's"), std::string::npos) << made.out;
+    const std::string html = read_file(page);
+    EXPECT_TRUE(html.starts_with("<!DOCTYPE html>"));
+    EXPECT_NE(html.find("<title>first, second</title>"), std::string::npos);
+    EXPECT_NE(html.find("id=\"planes-1\""), std::string::npos);
+    // A dye that is fixed is no input, and leaves no page.
+    const std::string dyed = (scratch / "dyed.html").string();
+    EXPECT_EQ(
+        run(scratch, {"compare", first, "--lamps", "D65,A", "--dyes", "crimson", "--html", dyed})
+            .status,
+        1);
+    EXPECT_FALSE(std::filesystem::exists(dyed));
 }
 
 TEST(Program, ChecksGarments) {

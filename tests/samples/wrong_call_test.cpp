@@ -279,6 +279,7 @@ TEST(WrongCall, ValuesThatNoInputCouldMakeRight) {
         {{"relight", exr, "--lamp", "A", "--lamp", "E", "-o", png}, "--lamp: two lamps for all"},
         {{"compare", exr, "--lamps", "A", "-o", png},
          "--lamps: one lamp is named; expected two or more"},
+        {{"compare", exr, "--lamps", "A,E"}, "--output: nothing is asked for"},
         {{"fabric", "simulate", "satan 5", "-o", csv}, "WEAVE: unknown weave \"satan 5\""},
         {{"fabric", "simulate", "w.toml", "-o", csv, "--directions", "papr"},
          "--directions: 'papr' is unknown; expected one of: normal, paper; did you mean paper?; or "

@@ -24,6 +24,7 @@ class OiioPictures final : public Pictures {
     EncodedPicture decode_png(std::string_view bytes, const std::string &name) const override {
         return decode_png_bytes(bytes, name);
     }
+    std::string deflate(std::string_view bytes) const override { return deflate_bytes(bytes); }
     std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const override {
         return open_frame_file(path);
     }

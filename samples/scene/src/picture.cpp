@@ -1,7 +1,9 @@
 #include "tsuya/scene/picture.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "tsuya/color/dye.h"
@@ -136,6 +138,18 @@ std::vector<std::string> show_dyes(SpectralImage &image, std::span<const std::st
         warnings.insert(warnings.end(), dye.warnings.begin(), dye.warnings.end());
     }
     return warnings;
+}
+
+std::string page_summary(const std::filesystem::path &file, const LivePage &page) {
+    std::ostringstream line;
+    line << file.string() << ": " << std::fixed << std::setprecision(1)
+         << static_cast<double>(page.html.size()) / 1e6 << " MB, colours within CIEDE2000 "
+         << std::setprecision(3);
+    for (std::size_t i = 0; i < page.errors.size(); ++i)
+        line << (i ? ", " : "") << page.errors[i].mean << " (mean) and " << page.errors[i].p99
+             << " (99th percentile)";
+    line << " of the file's\n";
+    return line.str();
 }
 
 } // namespace tsuya::scene

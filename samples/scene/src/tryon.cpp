@@ -11,6 +11,7 @@
 #include "scene_meshes.h"
 #include "tryon_cloths.h"
 #include "tryon_files.h"
+#include "tryon_page.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/sheet.h"
@@ -363,6 +364,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     TryOnResult result{.report = std::move(stage.shown.report)};
     add_spectrum_warnings(dyes, lamps, result);
     Sheet sheet{.columns = static_cast<int>(lamps.size())};
+    std::vector<PageDress> dresses;
     PreparedScene prepared(job.cache);
     const bool open = dyes.front().spectrum && leave_dye_open(job, scene);
     const std::size_t at_once = open ? dyes.size() : 1; // dyes of one render
@@ -394,6 +396,8 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
             if (!result.interrupted && !key.empty())
                 image.metadata["render_key"] = key;
         }
+        if (job.page && frames == 1)
+            dresses.push_back({open ? job.garment.stem().string() : dyes[first].name, image});
         for (std::size_t d = first; d < first + at_once; ++d) {
             if (open)
                 set_dye(*image.depths, scene.fabrics[0].name, *dyes[d].spectrum);
@@ -403,6 +407,8 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
     if (!result.interrupted && frames == 1) {
         result.files.push_back(job.output / kSheet);
         write_png(result.files.back(), draw_sheet(sheet));
+        if (job.page)
+            write_try_on_page(dresses, lamps, job, result);
     }
     if (!result.interrupted && frames > 1 && job.video_fps > 0)
         write_videos(dyes, lamps, job, result);

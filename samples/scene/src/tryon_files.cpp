@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tryon_page.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/lamp.h"
@@ -77,7 +78,8 @@ std::vector<fs::path> replaced_files(const TryOn &job) {
     std::error_code code;
     for (fs::directory_iterator at(job.output, code), end; !code && at != end; at.increment(code)) {
         const std::string name = at->path().filename().string(), number = number_in(name);
-        if ((one_shape && (name == kSheet || is_result(name, ""))) ||
+        if ((one_shape &&
+             (name == kSheet || (job.page && name == kTryOnPage) || is_result(name, ""))) ||
             (numbered && !number.empty() && is_result(name, number)) ||
             (job.video_fps > 0 && is_video(name)))
             replaced.push_back(at->path());

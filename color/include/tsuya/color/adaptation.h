@@ -22,6 +22,10 @@ Adaptation parse_adaptation(std::string_view name);
 /// The name that parse_adaptation reads.
 std::string to_string(Adaptation adaptation);
 
+/// The matrix (GLM: column-major) from XYZ to the cone signals that are scaled: of [Lam] for
+/// `bradford`, of [CIE159] for `cat02`, the identity for `none`.
+glm::dmat3 cone_matrix(Adaptation adaptation);
+
 /// Whether the three cone signals of a white are positive, so that an eye can be used to it. Those
 /// of single lines are not; `none` is always possible.
 bool can_adapt(Adaptation adaptation, const glm::dvec3 &from_white);

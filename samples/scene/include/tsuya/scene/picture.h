@@ -8,6 +8,7 @@
 
 #include "tsuya/color/compare.h"
 #include "tsuya/color/config.h"
+#include "tsuya/color/live_page.h"
 #include "tsuya/sdk/image.h"
 #include "tsuya/sdk/spectral_image.h"
 
@@ -51,6 +52,9 @@ void check_group_lamps(std::span<const std::string> specs);
 /// `FABRIC=DYE`. Throws Error as find_dye and set_dye.
 /// \return the warnings of find_dye
 std::vector<std::string> show_dyes(SpectralImage &image, std::span<const std::string> specs);
+
+/// A line about a page that was written: its file, size, and the errors of its colours.
+std::string page_summary(const std::filesystem::path &file, const LivePage &page);
 
 /// The part of a file name that stands for a dye or lamp: `crimson`; `x` of `my/x.csv`, `x_navy` of
 /// `my/x.csv:navy`; `aabbcc` of `#aabbcc`.

@@ -80,6 +80,7 @@ struct TryOn {
     RenderSettings render{.stop = kTryOnQuality, .denoise = true};
     TableCache cache{}; ///< of the fabrics' tables
     DisplayOptions look = default_look();
+    bool page = false;              ///< also make the live page; without frames only
     std::filesystem::path output{}; ///< a folder; made where it is missing
     /// Keeps renders in it that are complete and of the same scene and settings; their pictures are
     /// written again.
@@ -114,17 +115,19 @@ RenderResult render_try_on(const Scene &scene, const RenderSettings &settings,
 struct TryOnResult {
     std::vector<std::filesystem::path> files{}; ///< in the order of their making
     std::vector<RenderStats> stats{};           ///< one a render
-    std::vector<Problem> warnings{}; ///< of the renders and of files of spectra, each once
+    std::vector<Problem> warnings{};         ///< of the renders and of files of spectra, each once
+    std::vector<PackingError> page_errors{}; ///< of the live page, one a dress
     garment::Report report{};
     bool interrupted = false;
 };
 
 /// Renders once for all dyes or for each, and writes into the output folder `DYE.exr` (light
 /// transport, with the AOV `coverage` of the garment), `DYE-LAMP.png` for each lamp, and
-/// `sheet.png`. With frames or a turntable, each dye and frame gives `DYE-0000.exr` and
-/// `DYE-LAMP-0000.png`, and no sheet; where they are wanted, also `DYE-LAMP.mp4`. Where
-/// progress.stop becomes true, what is done is still written, without the sheet. Throws Error with
-/// nothing written for any wrong value of the job.
+/// `sheet.png`; with `page` also `page.html`, which shows any lamp, and any dye where one render
+/// serves all. With frames or a turntable, each dye and frame gives `DYE-0000.exr` and
+/// `DYE-LAMP-0000.png`, and neither sheet nor page; where they are wanted, also `DYE-LAMP.mp4`.
+/// Where progress.stop becomes true, what is done is still written, without sheet and page. Throws
+/// Error with nothing written for any wrong value of the job.
 TryOnResult run(const TryOn &job, const Progress &progress = {});
 
 /// The files in the output folder that have the names of results, which `run` may replace. How many

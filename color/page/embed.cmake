@@ -1,0 +1,11 @@
+# Writes the text of FILES into the C++ source OUTPUT, see src/page/page_files.h.
+cmake_policy(SET CMP0007 NEW)
+set(source "#include \"page/page_files.h\"\n\nnamespace tsuya {\n\n")
+string(APPEND source "std::span<const PageFile> page_files() {\n    static constexpr PageFile kFiles[]{\n")
+foreach(file IN LISTS FILES)
+    cmake_path(GET file FILENAME name)
+    file(READ "${file}" text)
+    string(APPEND source "        {\"${name}\", R\"tsuya-page(${text})tsuya-page\"},\n")
+endforeach()
+string(APPEND source "    };\n    return kFiles;\n}\n\n} // namespace tsuya\n")
+file(WRITE "${OUTPUT}" "${source}")
