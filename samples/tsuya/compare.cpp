@@ -103,7 +103,7 @@ struct Compare final : Command {
             for (const NamedLamp &lamp : named)
                 console.warnings(lamp.warnings);
             const std::vector<PageDress> dresses = read_dresses();
-            differences = compare(dresses, named);
+            differences = compare(dresses, named, console);
             if (!html.empty())
                 page = make_page(dresses, named);
         });
@@ -144,7 +144,8 @@ struct Compare final : Command {
 
     /// Draws the sheet where one is asked for.
     std::vector<DyedDifferences> compare(const std::vector<PageDress> &dresses,
-                                         const std::vector<NamedLamp> &named) const {
+                                         const std::vector<NamedLamp> &named,
+                                         Console &console) const {
         const DisplayOptions display = look.look();
         std::vector<DyedDifferences> differences;
         Sheet sheet{.columns = static_cast<int>(named.size())};

@@ -98,6 +98,7 @@ Json json_of(const RenderStats &stats, const std::vector<Skip> &skips) {
             {"error_asked", stats.error_asked ? Json(*stats.error_asked) : Json()},
             {"error_reached_share", stats.error_reached_share},
             {"denoise_change", stats.denoise_change ? Json(*stats.denoise_change) : Json()},
+            {"widening_change", stats.widening_change ? Json(*stats.widening_change) : Json()},
             {"rays", stats.rays},
             {"not_finite", stats.not_finite},
             {"triangles", stats.triangles},

@@ -33,7 +33,7 @@ struct Render final : Command {
     std::vector<std::string> aovs{};
     int video_fps = 0;
     double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
-    bool resume = false, explains = false, denoises = false, no_cache = false;
+    bool resume = false, explains = false, denoises = false, keeps_lobes = false, no_cache = false;
 
     void options(Options &o) override {
         o.argument(&scene, "SCENE.toml", "scene file").required();
@@ -78,6 +78,9 @@ struct Render final : Command {
             "--denoise", &denoises,
             "filter the noise out of the finished picture, which is then one to look at, not one "
             "to measure");
+        o.flag("--no-widening", &keeps_lobes,
+               "let light that was scattered diffusely meet every lobe as narrow as it is, as for "
+               "measurements; the picture may show specks");
         o.option("--tolerance-px", &tolerance_px, "PIXELS",
                  "largest distance of the triangles from the limit surface, in the picture")
             .range(1e-3, 1e3);
@@ -213,6 +216,7 @@ struct Render final : Command {
         settings.threads = threads.value_or(settings.threads);
         settings.seed = seed.value_or(settings.seed);
         settings.denoise = denoises || settings.denoise;
+        settings.widen_after_diffuse = !keeps_lobes && settings.widen_after_diffuse;
         if (!aovs.empty())
             settings.aovs = aovs;
         if (!crop.empty())

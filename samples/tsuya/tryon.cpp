@@ -24,7 +24,7 @@ struct TryOn final : Command {
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
-    bool keeps_noise = false, no_cache = false;
+    bool keeps_noise = false, keeps_lobes = false, no_cache = false;
     const Option *dye = nullptr, *channels = nullptr;
 
     void options(Options &o) override {
@@ -135,6 +135,9 @@ struct TryOn final : Command {
         o.flag("--no-denoise", &keeps_noise,
                "leave the noise in the pictures, as for measurements; pictures of one sample per "
                "pixel are never denoised");
+        o.flag("--no-widening", &keeps_lobes,
+               "let light that was scattered diffusely meet every lobe as narrow as it is, as for "
+               "measurements");
         add_threads(o, job.render.threads);
         o.option("--seed", &job.render.seed, "N", "random seed");
         add_cache(o, no_cache);
@@ -173,6 +176,7 @@ struct TryOn final : Command {
         if (samples)
             job.render.stop = {.samples_per_pixel = *samples};
         job.render.denoise = !keeps_noise;
+        job.render.widen_after_diffuse = !keeps_lobes;
         job.wavelengths = channels->given;
         job.cache = cache_unless(no_cache);
         scene::TryOnResult result;

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <numeric>
 
 #include "bench/render_scenes.h"
 #include "tsuya/sdk/error.h"
@@ -40,13 +41,14 @@ struct Timed {
 };
 
 Timed timed(const bench::RenderScene &s, const StopRule &stop, std::uint32_t seed,
-            bool denoise = false) {
+            bool denoise = false, bool widen = false) {
     const double start = cpu_seconds();
     Timed t{.result = render(s.scene, {.stop = stop,
                                        .channels = 8,
                                        .max_bounces = s.max_bounces,
                                        .seed = seed,
-                                       .denoise = denoise})};
+                                       .denoise = denoise,
+                                       .widen_after_diffuse = widen})};
     t.seconds = cpu_seconds() - start;
     return t;
 }
@@ -192,6 +194,38 @@ void denoised(const std::filesystem::path &scenes, int reference_samples,
     }
 }
 
+// For every sample scene at its default quality lines of how it is rendered, each of two renders.
+void count_specks(const std::filesystem::path &scenes, int reference_samples,
+                  const std::filesystem::path &folder, const std::string &part) {
+    constexpr int kRuns = 2;
+    std::cout << "scene,widened,denoised,cpu_seconds,samples,pixels,rel_mse,above_2,above_3,"
+                 "widening_change\n";
+    for (const bench::RenderScene &s : bench::speck_scenes(scenes)) {
+        if (s.name.find(part) == std::string::npos)
+            continue;
+        const Picture exact = reference(s, reference_samples, folder);
+        const int width = s.scene.camera.width;
+        for (const auto &[widen, denoise] :
+             {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
+            double seconds = 0, samples = 0, square = 0, change = 0;
+            int above_2 = 0, above_3 = 0;
+            for (std::uint32_t run = 0; run < kRuns; ++run) {
+                const Timed t = timed(s, s.stop, run, denoise, widen);
+                const Picture picture = picture_of(t.result.image);
+                seconds += t.seconds / kRuns;
+                samples += t.result.stats.samples_per_pixel / kRuns;
+                square += relative_mean_square(picture, exact) / kRuns;
+                above_2 += specks(picture, exact, width, 2);
+                above_3 += specks(picture, exact, width, 3);
+                change += t.result.stats.widening_change.value_or(0) / kRuns;
+            }
+            std::cout << s.name << "," << widen << "," << denoise << "," << seconds << ","
+                      << samples << "," << exact.size() * kRuns << "," << square << "," << above_2
+                      << "," << above_3 << "," << change << std::endl;
+        }
+    }
+}
+
 void growth() {
     std::cout << "lights,cpu_seconds\n";
     for (const int lights : {1, 4, 16, 64, 256, 1024}) {
@@ -216,6 +250,10 @@ int main(int count, char **arguments) {
         }
         if (args.size() >= 4 && args[0] == "denoised") {
             denoised(args[1], std::stoi(args[2]), args[3], args.size() > 4 ? args[4] : "");
+            return EXIT_SUCCESS;
+        }
+        if (args.size() >= 4 && args[0] == "specks") {
+            count_specks(args[1], std::stoi(args[2]), args[3], args.size() > 4 ? args[4] : "");
             return EXIT_SUCCESS;
         }
         if (args.size() == 1 && args[0] == "growth") {

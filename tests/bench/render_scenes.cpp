@@ -119,4 +119,27 @@ std::vector<RenderScene> denoised_scenes(const std::filesystem::path &scenes) {
     return list;
 }
 
+std::vector<RenderScene> speck_scenes(const std::filesystem::path &scenes) {
+    constexpr int kShrink = 4;
+    std::vector<RenderScene> list;
+    for (const std::string colour : {"crimson", "white"}) {
+        Scene dress = sample_scene(1, 200, 250);
+        dress.fabrics[0].colours.dye_all(parse_dye(colour));
+        list.push_back({.name = "try-on " + colour,
+                        .scene = std::move(dress),
+                        .max_bounces = RenderSettings{}.max_bounces,
+                        .stop = scene::kTryOnQuality});
+    }
+    const auto add = [&](const std::string &name, const std::filesystem::path &file, int shrink) {
+        scene::SceneFile read = scene::read_scene_file(file);
+        read.framing.width /= shrink;
+        read.framing.height /= shrink;
+        list.push_back({name, build_scene(read).scene, read.render.max_bounces, read.render.stop});
+    };
+    for (const std::string name : {"dress", "lace", "print", "shot", "slip"})
+        add(name, scene::data_folder() / "scenes" / (name + ".scene.toml"), kShrink);
+    add("studio", scenes / "studio.scene.toml", 1);
+    return list;
+}
+
 } // namespace tsuya::bench

@@ -13,6 +13,7 @@ struct RenderScene {
     std::string name{};
     Scene scene{};
     int max_bounces = 0;
+    StopRule stop{}; ///< as it is rendered by default
 };
 
 // A pleated skirt of 50,000 quads on a plane.
@@ -28,5 +29,9 @@ std::vector<RenderScene> render_scenes(const std::filesystem::path &scenes);
 // Sample dresses as they are looked at: tried on in white and in crimson, printed, and in the
 // studio of the benchmarks.
 std::vector<RenderScene> denoised_scenes(const std::filesystem::path &scenes);
+
+// The sample scenes with a quarter of their width, with the stop rules of their default quality: the
+// sample dress as it is tried on in two colours, the scene files of the samples, and the studio.
+std::vector<RenderScene> speck_scenes(const std::filesystem::path &scenes);
 
 } // namespace tsuya::bench

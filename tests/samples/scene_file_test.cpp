@@ -179,7 +179,7 @@ TEST(SceneFile, ReadsEveryKey) {
         "group = \"sun\"\n"
         "[environment]\nradiance = 0.5\ngroup = \"sun\"\nvisible = false\n"
         "[render]\nerror = 0.02\nseconds = 5\nchannels = 8\nmax_bounces = 3\nseed = "
-        "4294967295\ndenoise = true\n"
+        "4294967295\ndenoise = true\nwiden_after_diffuse = false\n"
         "aovs = [\"depth\"]\n"
         "[output]\nlamps = [\"A\", \"D65\"]\nadapt = \"cat02\"\nview = \"Plain\"\nexposure = -1\n");
     ASSERT_TRUE(file.camera);
@@ -235,6 +235,7 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(file.render.channels, 8);
     EXPECT_EQ(file.render.max_bounces, 3);
     EXPECT_TRUE(file.render.denoise);
+    EXPECT_FALSE(file.render.widen_after_diffuse);
     EXPECT_EQ(file.render.seed, 4294967295u); // as --seed
     EXPECT_EQ(file.render.aovs, std::vector<std::string>{"depth"});
     EXPECT_EQ(file.output.lamps.at(1).name, "D65");

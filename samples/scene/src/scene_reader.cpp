@@ -91,6 +91,8 @@ void SceneReader::read_render() {
                              "expected 8, 16 or 32");
     }
     render.denoise = section->flag("denoise").value_or(false);
+    render.widen_after_diffuse =
+        section->flag("widen_after_diffuse").value_or(render.widen_after_diffuse);
     const std::vector<std::string> known = aov_names();
     render.aovs = section->texts("aovs").value_or(std::vector<std::string>{});
     for (const std::string &aov : render.aovs)

@@ -58,6 +58,10 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
         for (int x = x0; x < x1; x += kTileSize)
             tiles.push_back({x, y, std::min(x + kTileSize, x1), std::min(y + kTileSize, y1)});
     done.resize(tiles.size());
+    if (settings.widen_after_diffuse) {
+        change.resize(tiles.size());
+        told.resize(tiles.size());
+    }
 }
 
 Film::TileError Film::tile_error(std::size_t t) const {
@@ -134,6 +138,24 @@ std::uint64_t Film::samples() const {
     for (std::size_t t = 0; t < tiles.size(); ++t)
         n += static_cast<std::uint64_t>(done[t]) * pixels_of(tiles[t]);
     return n;
+}
+
+std::optional<double> Film::widening_change() const {
+    const std::size_t values = groups * static_cast<std::size_t>(channels);
+    double of_change = 0, of_values = 0;
+    for (std::size_t t = 0; t < change.size(); ++t) {
+        if (told[t] == 0)
+            continue;
+        of_change +=
+            change[t] / static_cast<double>(told[t]) * static_cast<double>(pixels_of(tiles[t]));
+        for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
+            for (int x = tiles[t].x0; x < tiles[t].x1; ++x)
+                of_values += std::accumulate(pixel(x, y), pixel(x, y) + values, 0.0) /
+                             (static_cast<double>(channels) * done[t]);
+    }
+    if (!(of_values > 0))
+        return std::nullopt;
+    return of_change / (of_values - of_change);
 }
 
 std::int32_t Film::samples_at(int x, int y) const {

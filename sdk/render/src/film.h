@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ struct Film {
     // For the denoiser, empty where there is none: of the samples of odd index, [y][x][group][k],
     // and of what the camera sees, [y][x][kFeatures].
     std::vector<float> odd_sum{}, features{};
+    // Per tile, empty where nothing is widened: see PathTracer::change_by_widening, and samples
+    // that told it.
+    std::vector<double> change{};
+    std::vector<std::uint64_t> told{};
     // kDark of bright_value after the first pass: what is rendered must not depend on how far
     // other tiles are. 0 before.
     double dark = 0;
@@ -75,6 +80,8 @@ struct Film {
     double bright_value() const;
     // The part of the picture in tiles whose error is at most this.
     double share_within(double error) const;
+    // See RenderStats::widening_change.
+    std::optional<double> widening_change() const;
     // Means of the sums.
     SpectralImage develop(const Scene &scene, const RenderSettings &settings) const;
     // Of a pixel in a tile.

@@ -129,7 +129,7 @@ template <int K> class Passes {
             // A tile may have this pass's samples from before a pause, or have had enough
             if (film_.done[t] < to && !good_enough(t)) {
                 const detail::FlushDenormals flush;
-                render_tile(film_.tiles[t], std::max(from, film_.done[t]), to);
+                render_tile(t, std::max(from, film_.done[t]), to);
                 film_.done[t] = to;
                 if (keeper_.is_due())
                     pause = true;
@@ -149,7 +149,8 @@ template <int K> class Passes {
         progress_("render", std::max(of_most, reached_));
     }
 
-    void render_tile(const Tile &tile, int from, int to) {
+    void render_tile(std::size_t t, int from, int to) {
+        const Tile &tile = film_.tiles[t];
         PathTracer<K> tracer(prepared_);
         const auto samples = static_cast<std::size_t>(to - from);
         std::vector<Channels<K>> radiance(samples * film_.groups);
@@ -179,6 +180,10 @@ template <int K> class Passes {
                 }
             }
         rays_ += tracer.rays();
+        if (!film_.change.empty()) {
+            film_.change[t] += tracer.change_by_widening();
+            film_.told[t] += tracer.told();
+        }
         not_finite_ += not_finite;
     }
 

@@ -85,11 +85,21 @@ template <int K> struct PathTracer<K>::Path {
     glm::vec3 origin{}, direction{};
     std::uint32_t vertex = 0; // index of the last vertex
     Channels<K> throughput = Channels<K>::filled(1.0f);
+    bool wide = false;  // lobes are wider from now on, see widened_material.h
+    bool tells = false; // what that changes; `plain` is the throughput of the lobes as they are
+    Channels<K> plain{};
 
     glm::vec2 random(Purpose purpose, std::size_t which = 0) const {
         return sampler.pair(purpose, static_cast<std::uint32_t>(which));
     }
     void go_on() { sampler.go_to(++vertex); }
+};
+
+// The path's last vertex.
+template <int K> struct PathTracer<K>::Place {
+    const Vertex &vertex;
+    const Colours &colours;
+    const Vertex *plain; // without wider lobes, where the path tells what they change; else null
 };
 
 // What the ray from a vertex meets. After the last vertex only the lights count: where none lies in
@@ -168,12 +178,11 @@ template <int K> std::uint32_t PathTracer<K>::chosen_lights(const Path &path) co
 }
 
 // Adds beta_n S_n.
-template <int K>
-void PathTracer<K>::sample_lights(const Path &path, const Vertex &vertex, const Colours &colours) {
+template <int K> void PathTracer<K>::sample_lights(const Path &path, const Place &at) {
     const std::size_t count = scene_.lights.count();
     if (every_light(path)) {
         for (std::uint32_t i = 0; i < count; ++i)
-            sample_light(path, vertex, colours, {i, 1}, i);
+            sample_light(path, at, {i, 1}, i);
         return;
     }
     const std::uint32_t choices = count > 0 ? chosen_lights(path) : 0;
@@ -184,9 +193,9 @@ void PathTracer<K>::sample_lights(const Path &path, const Vertex &vertex, const 
     for (std::uint32_t i = 0; i < choices; ++i) {
         // One in each part of the range
         const float of_part = (static_cast<float>(i) + u) / static_cast<float>(choices);
-        if (auto chosen = scene_.lights.choose(vertex.receiver(), of_part)) {
+        if (auto chosen = scene_.lights.choose(at.vertex.receiver(), of_part)) {
             chosen->probability *= static_cast<float>(choices);
-            sample_light(path, vertex, colours, *chosen, i);
+            sample_light(path, at, *chosen, i);
         }
     }
 }
@@ -194,8 +203,9 @@ void PathTracer<K>::sample_lights(const Path &path, const Vertex &vertex, const 
 // \param chosen with the number of its samples, c_i, as probability
 // \param which of the samples at this vertex
 template <int K>
-void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const Colours &colours,
-                                 const ChosenLight &chosen, std::uint32_t which) {
+void PathTracer<K>::sample_light(const Path &path, const Place &at, const ChosenLight &chosen,
+                                 std::uint32_t which) {
+    const Vertex &vertex = at.vertex;
     const auto ray = scene_.lights.sample(chosen.light, vertex.position(),
                                           path.random(Purpose::light_point, which));
     if (!ray || !(ray->radiance > 0) || !vertex.accepts(ray->to_light))
@@ -212,7 +222,7 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
     const float weight = ray->pdf < kOnlyDirection
                              ? power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf)
                              : 1 / chosen.probability;
-    const Channels<K> response = coloured<K>(w.f_cos, colours, ray->radiance * weight);
+    const Channels<K> response = coloured<K>(w.f_cos, at.colours, ray->radiance * weight);
     const bool shadows = scene_.lights.throws_shadows(chosen.light);
     if (shadows &&
         scene_.lights.block(shadow.origin, shadow.direction, shadow.distance, chosen.light))
@@ -223,6 +233,12 @@ void PathTracer<K>::sample_light(const Path &path, const Vertex &vertex, const C
         for (std::size_t part = 0; part < parts.count && arrives > 0; ++part)
             path.radiance[parts.group[part]].add(response, path.throughput,
                                                  arrives * parts.share[part]);
+        if (arrives > 0 && at.plain) {
+            Channels<K> plain = coloured<K>(at.plain->weigh(ray->to_light).f_cos, at.colours,
+                                            ray->radiance * weight);
+            plain.multiply(path.plain);
+            tell_change(path, response, plain, arrives);
+        }
         return;
     }
     shadow.brings.add(response, path.throughput, 1);
@@ -248,16 +264,31 @@ template <int K> void PathTracer<K>::add_shadow_rays() {
     shadow_rays_.clear();
 }
 
+// Of what is added to the transport.
+// \param factor of the path's throughput
+// \param plain in its place, were no lobe wider; throughput included
+template <int K>
+void PathTracer<K>::tell_change(const Path &path, const Channels<K> &factor,
+                                const Channels<K> &plain, float scale) {
+    Channels<K> added;
+    added.add(factor, path.throughput, scale);
+    added.add(plain, -scale);
+    if (added.finite())
+        change_ += static_cast<double>(added.mean());
+}
+
 // Adds beta_n M_n; the path's throughput is beta_{n+1} already, but for the roulette.
 // \param distance to what ends the ray; infinite where nothing does
 // \param pdf of the path's direction
 template <int K>
 void PathTracer<K>::add_lights_met(const Path &path, const Vertex &vertex, float distance,
-                                   float pdf) const {
+                                   float pdf) {
     const auto add = [&](const LightMet &met) {
         const float sampled = met.pdf > 0 ? met.pdf * light_share(path, vertex, met.light) : 0.0f;
-        path.radiance[met.group].add(path.throughput,
-                                     met.radiance * (pdf * power_weight_over_pdf(pdf, sampled)));
+        const float weight = met.radiance * (pdf * power_weight_over_pdf(pdf, sampled));
+        path.radiance[met.group].add(path.throughput, weight);
+        if (path.tells && path.wide)
+            tell_change(path, Channels<K>::filled(1), path.plain, weight);
     };
     scene_.lights.meet(path.origin, path.direction, distance, add);
 }
@@ -275,6 +306,7 @@ template <int K> bool PathTracer<K>::survives(Path &path) const {
     if (path.random(Purpose::choice_and_survival).y >= probability)
         return false;
     path.throughput.scale(1 / probability);
+    path.plain.scale(1 / probability);
     return true;
 }
 
@@ -301,7 +333,9 @@ void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Chann
             Path path{.sampler = samplers[begin + i],
                       .radiance = radiance + (begin + i) * groups,
                       .origin = rays.origin[i],
-                      .direction = rays.direction[i]};
+                      .direction = rays.direction[i],
+                      .tells = scene_.plan.widens && samplers[begin + i].index() % kTelling == 0};
+            told_ += path.tells ? 1 : 0;
             follow(path, hits[i], first ? first + begin + i : nullptr);
         }
     }
@@ -332,7 +366,10 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
                       .normal = point.frame.normal,
                       .warp = point.warp,
                       .object = hit.object};
-        const Vertex vertex(scene_, point, path.direction);
+        const Vertex vertex(scene_, point, path.direction, path.wide);
+        std::optional<Vertex> plain;
+        if (path.tells && path.wide)
+            plain.emplace(scene_, point, path.direction, false);
         std::optional<Colours> printed;
         if (scene_.is_printed(point))
             printed = scene_.printed(point, hit.distance, path.vertex == 0);
@@ -341,7 +378,7 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
             first->albedo = thirds(colours.dye.data(), K);
 
         // Direct light, found by sampling the lights
-        sample_lights(path, vertex, colours);
+        sample_lights(path, {vertex, colours, plain ? &*plain : nullptr});
 
         // Next direction, sampled from the cloth's response
         const auto next =
@@ -352,6 +389,11 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
         path.throughput.multiply(coloured<K>(f_cos, colours, 1 / pdf));
         if (!(path.throughput.largest() > 0))
             return;
+        if (plain)
+            path.plain.multiply(coloured<K>(plain->weigh(next->to_light).f_cos, colours, 1 / pdf));
+        else if (!path.wide)
+            path.plain = path.throughput;
+        path.wide |= scene_.plan.widens && !next->mirrored;
         path.origin = vertex.ray_origin(next->to_light);
         path.direction = next->to_light;
         if (!std::isfinite(glm::dot(path.origin, path.direction)))

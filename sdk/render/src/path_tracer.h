@@ -27,6 +27,9 @@ template <int K> class PathTracer {
   public:
     explicit PathTracer(const TracedScene &scene) : scene_(scene) {}
 
+    // One sample in so many tells what wider lobes change.
+    static constexpr std::size_t kTelling = 8;
+
     // Transport of each light group through random points of a pixel.
     // \param samplers one a sample; a packet of them is traced together
     // \param radiance for each sample `groups` values, set
@@ -35,9 +38,14 @@ template <int K> class PathTracer {
                std::size_t groups, FirstHit *first);
     // Traced so far.
     std::uint64_t rays() const { return rays_; }
+    // By how much wider lobes changed the transport of all samples that tell it: the mean over
+    // channels of the sum over groups.
+    double change_by_widening() const { return change_; }
+    std::uint64_t told() const { return told_; }
 
   private:
     struct Path;
+    struct Place;
     // A ray to a light, and what it brings where nothing is in its way.
     struct ShadowRay {
         glm::vec3 origin, direction;
@@ -50,10 +58,12 @@ template <int K> class PathTracer {
     bool find_next(const Path &path, Hit &hit);
     bool pass_holes(const Path &path, bool from_camera, Hit &hit);
     float transmission(glm::vec3 origin, const glm::vec3 &direction, float distance);
-    void sample_lights(const Path &path, const Vertex &vertex, const Colours &colours);
-    void sample_light(const Path &path, const Vertex &vertex, const Colours &colours,
-                      const ChosenLight &chosen, std::uint32_t which);
-    void add_lights_met(const Path &path, const Vertex &vertex, float distance, float pdf) const;
+    void sample_lights(const Path &path, const Place &at);
+    void sample_light(const Path &path, const Place &at, const ChosenLight &chosen,
+                      std::uint32_t which);
+    void tell_change(const Path &path, const Channels<K> &factor, const Channels<K> &plain,
+                     float scale);
+    void add_lights_met(const Path &path, const Vertex &vertex, float distance, float pdf);
     float light_share(const Path &path, const Vertex &vertex, std::size_t light) const;
     bool every_light(const Path &path) const;
     std::uint32_t chosen_lights(const Path &path) const;
@@ -63,6 +73,8 @@ template <int K> class PathTracer {
     const TracedScene &scene_;
     std::vector<ShadowRay> shadow_rays_{}; // of the camera's vertices, to be traced in packets
     std::uint64_t rays_ = 0;
+    double change_ = 0;
+    std::uint64_t told_ = 0;
 };
 
 extern template class PathTracer<8>;

@@ -64,6 +64,7 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
     if (settings.max_bounces > 0 &&
         skip(!scatters, "nothing scatters light", "all bounces and shadow rays"))
         p.max_bounces = 0;
+    p.widens = settings.widen_after_diffuse && p.max_bounces > 0;
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (!skip(emission_of(scene.lights[i]) == 0 && !is_thing(scene.lights[i]),
                   "the light " + name_in(scene, i) + " is dark", "its shadow rays"))
@@ -103,6 +104,8 @@ std::string explain(const Plan &p) {
             (p.environment ? ", environment" : "") + "\n";
     text += std::string("parts:") + (p.any_diffuse ? " diffuse" : "") +
             (p.any_specular ? " specular" : "") + "\n";
+    if (p.widens)
+        text += "lobes: wider after diffuse scattering\n";
     for (const Skip &s : p.skips)
         text += "skipped: " + s.what + "; saves " + s.saves + "\n";
     return text;

@@ -94,12 +94,15 @@ RenderResult result_of(const Film &film, const Scene &scene, const RenderSetting
     if (stats.error_asked)
         stats.error_reached_share = film.share_within(*stats.error_asked);
     stats.samples = film.samples();
+    stats.widening_change = film.widening_change();
     stats.rays = film.rays;
     stats.not_finite = film.not_finite;
     for (const Object &object : scene.objects)
         stats.triangles += scene.surfaces[object.surface.value].triangle.size();
     result.image.metadata["samples_per_pixel"] = std::to_string(stats.samples_per_pixel);
     result.image.metadata["relative_error"] = std::to_string(stats.relative_error);
+    if (stats.widening_change)
+        result.image.metadata["widening_change"] = std::to_string(*stats.widening_change);
     result.image.metadata["seed"] = std::to_string(settings.seed);
     if (film.not_finite > 0)
         result.warnings.push_back({std::to_string(film.not_finite) + " of " +

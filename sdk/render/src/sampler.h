@@ -57,6 +57,7 @@ class Sampler {
         go_to(0);
     }
 
+    std::uint32_t index() const { return sample_; }
     // The numbers are those of this vertex from now on. What one vertex uses is distributed
     // jointly; vertices are independent of each other.
     void go_to(std::uint32_t vertex) {

@@ -111,7 +111,8 @@ std::optional<LightSample> Shading::sample(const glm::vec3 &to_viewer, const Vie
         const auto sampled = specular_->sample(to_viewer, u);
         if (!sampled)
             return std::nullopt;
-        LightSample light{sampled->direction, {{}, view.specular_share * sampled->pdf_per_sr}};
+        LightSample light{
+            sampled->direction, {{}, view.specular_share * sampled->pdf_per_sr}, true};
         Weighed &w = light.weighed;
         add_specular(w.f_cos, sampled->weight * sampled->pdf_per_sr,
                      sampled->weft * sampled->pdf_per_sr);

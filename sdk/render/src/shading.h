@@ -43,6 +43,7 @@ struct Weighed {
 struct LightSample {
     glm::vec3 to_light; // in the cloth's frame z < 0: behind it
     Weighed weighed{};
+    bool mirrored = false; // at the surface; else scattered diffusely, or in the body
 };
 
 // Means of a material's colours over the channels.

@@ -178,14 +178,18 @@ void TracedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &bas
             throw Interrupted("stopped while the fabrics were prepared");
         const Fabric &fabric = scene.fabrics[cloth.fabric];
         const std::string where = "fabrics." + fabric.name;
-        const Material material =
-            !used[cloth.fabric] && !keep_idle_parts ? Material{}
-            : cloth.print ? materials.resolve(as_printed(cloth, basis), where, progress)
-            : depths ? materials.resolve(fabric_at_depths(fabric, varying[cloth.fabric], *depths),
-                                         where, progress)
-                     : materials.resolve(fabric, where, progress);
+        const bool idle = !used[cloth.fabric] && !keep_idle_parts;
+        const Fabric shown = cloth.print ? as_printed(cloth, basis)
+                             : depths    ? fabric_at_depths(fabric, varying[cloth.fabric], *depths)
+                                         : fabric;
+        const Material material = idle ? Material{} : materials.resolve(shown, where, progress);
         colours.push_back(colours_of(material, basis, depths.has_value()));
-        shading.emplace_back(material, means_of(colours.back(), basis.count), keep_idle_parts);
+        const MeanColours means = means_of(colours.back(), basis.count);
+        shading.emplace_back(material, means, keep_idle_parts);
+        wide_shading.emplace_back();
+        if (const auto wide =
+                plan.widens && !idle ? materials.widened(shown, material, progress) : std::nullopt)
+            wide_shading.back().emplace(*wide, means, keep_idle_parts);
         of_dye_.push_back(material.of_dye);
         weft_share_.push_back(static_cast<float>(material.weft_share));
     }

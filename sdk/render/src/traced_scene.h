@@ -63,6 +63,9 @@ struct TracedScene {
     std::array<double, kMostDyes> most_dye{1, 1};
     CameraRays camera;
     std::vector<Shading> shading{}; // per cloth
+    // The same where light was scattered diffusely before; empty where the plan does not widen, or
+    // where nothing becomes wider
+    std::vector<std::optional<Shading>> wide_shading{};
     std::vector<Colours> colours{}; // per cloth, then of its own back
 
     // Some cloth has holes.
@@ -71,6 +74,10 @@ struct TracedScene {
     float opacity(const Hit &hit, float footprint) const;
     // Where a ray goes on that went through a hole.
     glm::vec3 behind(const glm::vec3 &direction, const Hit &hit) const;
+    // \param wide of light that was scattered diffusely before
+    const Shading &shading_of(std::uint32_t cloth, bool wide) const {
+        return wide && wide_shading[cloth] ? *wide_shading[cloth] : shading[cloth];
+    }
     // The point that a ray of this direction hit.
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
     bool is_printed(const SurfacePoint &point) const {

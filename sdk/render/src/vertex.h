@@ -14,8 +14,10 @@ namespace tsuya {
 class Vertex {
   public:
     // \param direction of the ray that hit the point
-    Vertex(const TracedScene &scene, const SurfacePoint &point, const glm::vec3 &direction)
-        : point_(point), shading_(scene.shading[point.cloth]),
+    // \param wide light was scattered diffusely on the path before
+    Vertex(const TracedScene &scene, const SurfacePoint &point, const glm::vec3 &direction,
+           bool wide)
+        : point_(point), shading_(scene.shading_of(point.cloth, wide)),
           to_viewer_(point.frame.to_local(-direction)), view_(shading_.view_terms(to_viewer_)) {}
 
     const glm::vec3 &position() const { return point_.position; }

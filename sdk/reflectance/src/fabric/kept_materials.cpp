@@ -2,6 +2,7 @@
 
 #include "fabric/table_files.h"
 #include "tsuya/sdk/detail/fabric_fields.h"
+#include "tsuya/sdk/widened_material.h"
 
 namespace tsuya {
 namespace {
@@ -33,6 +34,19 @@ Material KeptMaterials::resolve(const Fabric &fabric, const std::string &where,
         ++use_.made;
         write_tables(cache_, key, tables, use_.cache_problem);
     }
+    return made;
+}
+
+std::optional<Material> KeptMaterials::widened(const Fabric &fabric, const Material &material,
+                                               const Progress &progress) {
+    if (!reflects(fabric.specular))
+        return std::nullopt;
+    const Key key{hash_of(fabric.specular, 0), hash_of(fabric.specular, 1)};
+    ModelTables &tables = kept_[key];
+    const ModelTables before = tables;
+    std::optional<Material> made = tsuya::widened(material, tables, progress);
+    if (tables != before)
+        write_tables(cache_, key, tables, use_.cache_problem);
     return made;
 }
 

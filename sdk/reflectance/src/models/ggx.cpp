@@ -106,6 +106,18 @@ float GgxCore::albedo(const glm::vec3 &direction) const {
     return std::min(1.0f, albedo_.at(direction));
 }
 
+std::optional<GgxFacets> GgxCore::widened() const {
+    constexpr float kWideAlpha = 0.3f;
+    if (std::min(alpha_weft_, alpha_warp_) >= kWideAlpha)
+        return std::nullopt;
+    GgxFacets wide{.alpha_weft = std::max(alpha_weft_, kWideAlpha),
+                   .alpha_warp = std::max(alpha_warp_, kWideAlpha),
+                   .f0 = f0_};
+    if (index_ > 0)
+        wide.refractive_index = index_;
+    return wide;
+}
+
 GgxCore::GgxCore(detail::TableReader &from) { each_part(from, *this); }
 
 template class Model<GgxCore>;

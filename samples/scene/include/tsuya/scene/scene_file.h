@@ -89,7 +89,7 @@ struct SceneFile {
     std::vector<Light> lights{};
     std::vector<std::string> light_places{}; ///< file:line:column of each light
     std::optional<Environment> environment{};
-    RenderSettings render{};
+    RenderSettings render{.widen_after_diffuse = true};
     OutputEntry output{};
     std::vector<std::string> warnings{};        ///< of files of spectra, a sentence each
     std::vector<std::filesystem::path> files{}; ///< all meshes, fabrics and pictures that it names

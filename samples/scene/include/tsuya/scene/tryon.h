@@ -77,7 +77,7 @@ struct TryOn {
     int width = 800;
     int height = 1000;
     /// Pictures of one sample per pixel are never denoised.
-    RenderSettings render{.stop = kTryOnQuality, .denoise = true};
+    RenderSettings render{.stop = kTryOnQuality, .denoise = true, .widen_after_diffuse = true};
     TableCache cache{}; ///< of the fabrics' tables
     DisplayOptions look = default_look();
     bool page = false;              ///< also make the live page; without frames only

@@ -166,15 +166,20 @@ struct ModelTables {
     /// The coloured part that follows the yarns: below the specular part, and below one without a
     /// colour
     std::shared_ptr<const BodyBrdf> body{}, bare_body{};
+    /// The same with wider lobes, see widened_material.h
+    std::shared_ptr<const Brdf> wide_specular{};
+    std::shared_ptr<const BodyBrdf> wide_body{}, wide_bare_body{};
 
     bool operator==(const ModelTables &) const = default; ///< the same objects
 
     /// See detail/table_parts.h.
     template <class F, detail::MaybeConst<ModelTables> T> friend void each_part(F &&f, T &t) {
-        auto &[of_specular, of_body, of_bare_body] = t;
-        f(of_specular);
-        f(of_body);
-        f(of_bare_body);
+        auto &[of_specular, of_body, of_bare_body, of_wide_specular, of_wide_body,
+               of_wide_bare_body] = t;
+        for (auto *brdf : {&of_specular, &of_wide_specular})
+            f(*brdf);
+        for (auto *made : {&of_body, &of_bare_body, &of_wide_body, &of_wide_bare_body})
+            f(*made);
     }
 };
 

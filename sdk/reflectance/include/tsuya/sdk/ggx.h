@@ -63,6 +63,9 @@ class GgxCore {
     glm::vec3 draw(const glm::vec3 &fixed, const glm::vec3 &u) const;
     float albedo(const glm::vec3 &direction) const;
 
+    /// The facets with a slope of at least 0.3 along both axes; empty where they have it already.
+    std::optional<GgxFacets> widened() const;
+
   private:
     template <class F, detail::MaybeConst<GgxCore> T> friend void each_part(F &&f, T &t) {
         auto &[alpha_weft, alpha_warp, f0, index, of_albedo] = t;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -35,6 +36,10 @@ class KeptMaterials {
     /// As resolve (fabric.h), with the tables of a fabric before that has the same specular part.
     /// A cache that cannot be read or written is no error, see TableUse.
     Material resolve(const Fabric &fabric, const std::string &where, const Progress &progress = {});
+    /// As widened (widened_material.h) of what `resolve` gave for the fabric, with tables kept in
+    /// the same way.
+    std::optional<Material> widened(const Fabric &fabric, const Material &material,
+                                    const Progress &progress = {});
     /// Of cloths: fabrics that differ in their colours alone are one.
     std::size_t size() const { return kept_.size(); }
     /// Forgets what is in memory: the tables of a cloth have about a megabyte.

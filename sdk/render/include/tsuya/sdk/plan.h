@@ -25,6 +25,7 @@ struct Plan {
     bool environment = false; ///< an environment shines
     bool any_specular = false;
     bool any_diffuse = false;
+    bool widens = false;          ///< bounces meet wider lobes, see RenderSettings
     bool short_last_rays = false; ///< the ray after a path's last vertex looks for lights alone
     std::vector<std::size_t> lights{}; ///< into Scene::lights: those that shine or are things
     std::vector<Skip> skips{};

@@ -48,6 +48,10 @@ struct RenderSettings {
     /// by the same weights, so that the picture can be relit as before. Needs 2 samples per pixel.
     /// An interrupted render and snapshots are not filtered, nor are the AOVs.
     bool denoise = false;
+    /// Light that was scattered diffusely meets wider lobes from then on, see widened_material.h:
+    /// for pictures to be looked at, not for measurements. It takes the specks out of a picture and
+    /// changes its energy a little, see RenderStats::widening_change.
+    bool widen_after_diffuse = false;
     /// false: do even what the plan shows to be idle; the picture must not change
     bool skip = true;
     /// The file in which a render keeps what it has; empty: none. Replaced atomically while it
@@ -89,6 +93,10 @@ struct RenderStats {
     /// not done. The errors are those of the picture before.
     std::optional<double> denoise_change{};
     std::uint64_t samples = 0; ///< of all pixels
+    /// By which share RenderSettings::widen_after_diffuse changed the mean of the picture: an
+    /// estimate from one sample of eight, the noisier the narrower the lobes. Empty where nothing
+    /// was widened.
+    std::optional<double> widening_change{};
     std::uint64_t rays = 0;
     std::uint64_t not_finite = 0; ///< samples left out because they were NaN or infinite
     std::uint64_t triangles = 0;
