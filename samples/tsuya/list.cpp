@@ -15,6 +15,7 @@
 #include "tsuya/color/lamp.h"
 #include "tsuya/lab/weave.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/studio_preset.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/model.h"
 
@@ -80,7 +81,7 @@ struct List final : Command {
     void options(Options &o) override {
         o.argument(&kind, "KIND", "kind of thing")
             .required()
-            .one_of({"lamps", "fabrics", "weaves", "dyes", "models", "views"});
+            .one_of({"lamps", "fabrics", "weaves", "dyes", "models", "views", "studios"});
         o.flag("--json", &json, "print the names as JSON");
         o.option("--data", &data, "DIR", "folder of the sample data");
         o.example("tsuya list lamps");
@@ -160,6 +161,8 @@ struct List final : Command {
             return described(dye_names(), dye_description);
         if (kind == "views")
             return described(view_names(), view_description);
+        if (kind == "studios")
+            return described(scene::studio_names(), scene::studio_description);
         if (kind == "weaves")
             return described(lab::weave_names(), weave_description);
         if (kind == "fabrics") {

@@ -9,10 +9,10 @@ LookOptions::LookOptions()
     : adapt(to_string(scene::default_look().adapt)), view(scene::default_look().view) {}
 
 void LookOptions::add_to(Options &options) {
-    options
-        .option("--adapt", &adapt, "NAME",
-                "chromatic adaptation from the lamp to the display's white")
-        .one_of(adaptation_names());
+    adapt_ = &options
+                  .option("--adapt", &adapt, "NAME",
+                          "chromatic adaptation from the lamp to the display's white")
+                  .one_of(adaptation_names());
     options.option("--view", &view, "NAME", "display view, see `tsuya list views`")
         .one_of(view_names());
     options.option("--exposure", &exposure_stops, "STOPS", "exposure; 1 doubles the light")

@@ -19,8 +19,14 @@ struct LookOptions {
     void add_to(Options &options);
     DisplayOptions look() const;
 
+    /// --adapt was given.
+    bool adapt_given() const { return adapt_ && adapt_->given; }
+
     std::string adapt, view;
     double exposure_stops = 0;
+
+  private:
+    const Option *adapt_ = nullptr;
 };
 
 /// `--sewing-tolerance`, see garment::SeamOptions; shows the default that `metres` has.

@@ -7,6 +7,7 @@
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/relight.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/sdk/detail/threads.h"
 
@@ -24,8 +25,9 @@ struct Relight final : Command {
         o.argument(&transport, "OUT.exr", "light transport from render or tryon").required();
         o.option("--lamp", &lamps, "LAMP",
                  "name of `tsuya list lamps`, a file of spectra or a mixture such as "
-                 "0.7*A+0.3*D65, for all light groups; GROUP=LAMP for one of them; may be repeated")
-            .check([this] { scene::check_group_lamps(lamps); })
+                 "0.7*A+0.3*D65, for all light groups, or `own`: each has the lamp that its scene "
+                 "or studio gave it; GROUP=LAMP for one of them; may be repeated")
+            .check([this] { scene::check_group_or_own_lamps(lamps); })
             .required();
         o.option(
             "--dye", &dyes, "DYE",
@@ -46,7 +48,7 @@ struct Relight final : Command {
             SpectralImage image = read_spectral_exr(transport);
             console.warnings(scene::show_dyes(image, dyes));
             const std::vector<NamedLamp> named =
-                scene::parse_group_lamps(lamps, image.groups, {}, column);
+                scene::parse_group_or_own_lamps(lamps, image, column);
             for (const NamedLamp &lamp : named)
                 console.warnings(lamp.warnings);
             const Image picture = scene::picture_under(image, named, display);

@@ -1,8 +1,10 @@
 // tsuya render: a scene file to light transport.
 
 #include <algorithm>
+#include <iomanip>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "command.h"
@@ -11,6 +13,7 @@
 #include "same_file.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/scene_file.h"
 #include "tsuya/scene/video.h"
 #include "tsuya/sdk/detail/counted.h"
@@ -128,6 +131,8 @@ struct Render final : Command {
             console.warnings(mesh.report, mesh.mesh.string());
         console.warnings(file.warnings);
         load_ = of_load.end("load");
+        own_lamps_ = built.own_lamps;
+        tell_environment(file, console);
         if (explains) {
             explain_plan(built, settings);
             return kDone;
@@ -150,11 +155,26 @@ struct Render final : Command {
         return kDone;
     }
 
+    /// How well three lamps make the colours of an environment.
+    void tell_environment(const scene::SceneFile &file, Console &console) const {
+        constexpr double kTold = 0.01;
+        if (!file.environment_error || (*file.environment_error < kTold && !explains))
+            return;
+        std::ostringstream text;
+        text << "the colours of the environment are mixed of three lamps with an error of "
+             << std::setprecision(2) << 100 * *file.environment_error << " %";
+        if (explains)
+            std::cout << text.str() << "\n";
+        else
+            console.warning(text.str());
+    }
+
     Status render_frame(const scene::SceneFile &file, const Scene &shown,
                         const RenderSettings &settings, PreparedScene &prepared, Console &console) {
         if (resume && !frames && !fs::exists(settings.checkpoint))
             console.warning("there is no " + settings.checkpoint.string() + "; starting anew");
         RenderResult result = render(shown, settings, console.progress(), &prepared);
+        scene::note_own_lamps(result.image, own_lamps_);
         for (const Problem &warning : result.warnings)
             console.warning(warning);
         result.stats.phases.insert(result.stats.phases.begin(),
@@ -340,6 +360,7 @@ struct Render final : Command {
   private:
     std::size_t frame_ = 0; ///< that is rendered
     Phase load_{};          ///< of the first frame that is rendered
+    std::vector<std::string> own_lamps_{};
 };
 
 } // namespace

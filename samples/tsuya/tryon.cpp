@@ -9,6 +9,8 @@
 #include "same_file.h"
 #include "tsuya/color/spectrum_file.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/scene/own_lamps.h"
+#include "tsuya/scene/studio_preset.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
@@ -25,7 +27,7 @@ struct TryOn final : Command {
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
     bool keeps_noise = false, keeps_lobes = false, no_cache = false;
-    const Option *dye = nullptr, *channels = nullptr;
+    const Option *dye = nullptr, *channels = nullptr, *lamps = nullptr;
 
     void options(Options &o) override {
         add_garment(o);
@@ -107,10 +109,16 @@ struct TryOn final : Command {
                         "none is given, a dyed fabric has its own")
                    .with_commas()
                    .check([this] { scene::check_dyes(job.dyes); });
-        o.option("--lamps", &job.lamps, "A,B,...",
-                 "lamps, one picture each: names of `tsuya list lamps`, or files of spectra")
-            .with_commas()
-            .check([this] { scene::check_lamps(job.lamps); });
+        lamps = &o.option("--lamps", &job.lamps, "A,B,...",
+                          "lamps, one picture each: names of `tsuya list lamps`, files of spectra, "
+                          "or `own`: each light has the lamp of its studio, which is the default "
+                          "of --studio")
+                     .with_commas()
+                     .check([this] { scene::check_picture_lamps(job.lamps); });
+        o.option("--studio", &job.studio, "NAME",
+                 "lights and backdrop, see `tsuya list studios`; under their own lamps the picture "
+                 "is adapted by CAT02 unless --adapt says otherwise")
+            .one_of(scene::studio_names());
         o.option("--azimuth", &job.azimuth_deg, "DEGREES",
                  "direction of the camera; 0 sees the front")
             .range(-360, 360);
@@ -172,6 +180,11 @@ struct TryOn final : Command {
         job.up = stated_up(up);
         check_results();
         job.look = look.look();
+        if (job.studio != scene::kDefaultStudio && !lamps->given) {
+            job.lamps = {scene::kOwnLamps};
+            if (!look.adapt_given())
+                job.look.adapt = Adaptation::cat02;
+        }
         job.render.stop.relative_error = error;
         if (samples)
             job.render.stop = {.samples_per_pixel = *samples};

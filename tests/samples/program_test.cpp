@@ -95,7 +95,7 @@ TEST(Program, ListsWhatCanBeNamed) {
     EXPECT_EQ(lamps.status, 0);
     EXPECT_EQ(lamps.err, "");
     EXPECT_NE(lamps.out.find("HP4"), std::string::npos);
-    for (const char *kind : {"lamps", "fabrics", "weaves", "dyes", "models", "views"}) {
+    for (const char *kind : {"lamps", "fabrics", "weaves", "dyes", "models", "views", "studios"}) {
         const json list = json::parse(run(scratch, {"list", kind, "--json"}).out);
         EXPECT_EQ(list.at("schema"), "tsuya-list 1");
         EXPECT_GE(list.at("entries").size(), 1u) << kind;

@@ -68,6 +68,20 @@ TEST(SceneLights, HaveTheirKeys) {
     EXPECT_TRUE(sun.visible);
 }
 
+TEST(SceneLights, LuminairesShineAsMeasured) {
+    const Scratch scratch;
+    scratch.write("a.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 100 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n"
+                           "300 100\n");
+    const std::string keys = "[lights.a]\ntype = \"ies\"\nprofile = \"a.ies\"\ncentre = [0, 3, 0]\n"
+                             "turn_deg = 90\n";
+    const auto own = std::get<PointLight>(read(scratch, keys).lights.at(0));
+    EXPECT_NEAR(own.intensity, kPi / 1000, 1e-12); // of one candela
+    EXPECT_EQ(own.profile->candela, (std::vector<double>{300, 100}));
+    EXPECT_NEAR(glm::length(own.zero_plane - glm::dvec3(1, 0, 0)), 0, 1e-12);
+    const Light scaled = read(scratch, keys + "lumen = 100\n").lights.at(0);
+    EXPECT_NEAR(flux(scaled), 0.1 * kPi, 1e-9);
+}
+
 TEST(SceneLights, EachHasAGroup) {
     const Scratch scratch;
     const SceneFile file = read(
@@ -156,6 +170,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadLight{"PointsDoNotBlock",
                  "[lights.a]\ntype = \"point\"\ncentre = [0, 2, 1]\nblocks = true\n", "8:1",
                  "blocks", ""},
+        BadLight{"NoProfile",
+                 "[lights.a]\ntype = \"ies\"\ncentre = [0, 2, 1]\nprofile = \"no.ies\"\n", "8:11",
+                 "no.ies", "relative"},
+        BadLight{"WrongProfile",
+                 "[lights.a]\ntype = \"ies\"\ncentre = [0, 2, 1]\nprofile = \"cloth.obj\"\n",
+                 "8:11", "TILT", "LM-63"},
         BadLight{"BelowTheGround", "[lights.a]\ntype = \"sun\"\nelevation_deg = -100\n", "7:17",
                  "-100", "from -90"},
         BadLight{"WhiteLux", "[units]\nwhite_lux = 0\n[lights.a]\ncentre = [0, 2, 1]\n", "6:13",

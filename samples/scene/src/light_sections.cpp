@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "scene_reader.h"
-#include "tsuya/color/image_file.h"
+#include "tsuya/color/lamp.h"
+#include "tsuya/color/spectrum_file.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/light_group.h"
@@ -31,6 +32,20 @@ LightGroupIndex SceneReader::group(const Section &section, const std::string &ot
     return {index};
 }
 
+void SceneReader::read_own_lamp(const Section &section, LightGroupIndex group) {
+    file_.own_lamps.resize(file_.light_groups.size());
+    const auto lamp = section.text("lamp");
+    if (!lamp)
+        return;
+    note(section, "lamp", [&] { parse_lamp(*lamp, folder_); });
+    const std::string spec = parse_spectrum_file_spec(*lamp) ? (folder_ / *lamp).string() : *lamp;
+    std::string &known = file_.own_lamps[group.value];
+    if (!known.empty() && known != spec)
+        section.problem("lamp", "the group has the lamp " + known + " already",
+                        "expected one lamp for a group");
+    known = spec;
+}
+
 void SceneReader::read_units() {
     if (const auto units = root_.section("units"))
         white_lux_ = units->number("white_lux", kSmallest, 1e9).value_or(white_lux_);
@@ -45,13 +60,14 @@ void SceneReader::read_lights() {
 }
 
 void SceneReader::read_light(const std::string &name, const Section &section) {
-    const std::vector<std::string> kinds{"rectangle", "disk", "sphere", "point", "spot", "sun"};
+    const std::vector<std::string> kinds{"rectangle", "disk", "sphere", "point",
+                                         "spot",      "ies",  "sun"};
     std::string kind = section.text("type").value_or("rectangle");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
         section.problem("type", "no type of light '" + kind + "'", accepted_names(kind, kinds));
         kind = "rectangle";
     }
-    const bool faces = kind == "rectangle" || kind == "disk" || kind == "spot";
+    const bool faces = kind == "rectangle" || kind == "disk" || kind == "spot" || kind == "ies";
     const glm::dvec3 target = faces ? section.vector("target").value_or(kTarget) : kTarget;
     note(section, kind == "sun" ? "elevation_deg" : "centre", [&] {
         Light light;
@@ -65,6 +81,8 @@ void SceneReader::read_light(const std::string &name, const Section &section) {
             light = read_sun(section);
         else if (kind == "spot")
             light = read_spot(section, target);
+        else if (kind == "ies")
+            light = read_luminaire(section, target);
         else
             light = read_point(section);
         read_strength(section, target, light);
@@ -72,6 +90,7 @@ void SceneReader::read_light(const std::string &name, const Section &section) {
             [&](auto &l) {
                 l.name = name;
                 l.group = group(section, name);
+                read_own_lamp(section, l.group);
             },
             light);
         file_.lights.push_back(std::move(light));
@@ -138,6 +157,20 @@ PointLight SceneReader::read_spot(const Section &section, const glm::dvec3 &targ
     return light;
 }
 
+PointLight SceneReader::read_luminaire(const Section &section, const glm::dvec3 &target) {
+    PointLight light = read_point(section);
+    light.direction = facing(light.position, target);
+    const double turn = section.number("turn_deg", -360, 360).value_or(0) * kDegree;
+    // About the axis from where the front (+z) is; for one that shines along z, from the top
+    const glm::dvec3 up =
+        std::abs(light.direction.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 zero = glm::normalize(up - glm::dot(up, light.direction) * light.direction);
+    light.zero_plane = std::cos(turn) * zero + std::sin(turn) * glm::cross(zero, light.direction);
+    if (const auto file = existing_file(section, "profile", true); is_file(file))
+        note(section, "profile", [&] { light.profile = read_ies(file); });
+    return light;
+}
+
 SunLight SceneReader::read_sun(const Section &section) {
     return {.to_light =
                 direction_of(section.number("azimuth_deg", -360, 360).value_or(-40) * kDegree,
@@ -153,9 +186,10 @@ void SceneReader::read_strength(const Section &section, const glm::dvec3 &target
     std::vector<const char *> units{"strength", "lux"};
     if (place)
         units.push_back("lumen");
-    if (std::holds_alternative<PointLight>(light))
+    const auto *const point = std::get_if<PointLight>(&light);
+    if (point && !point->profile)
         units.push_back("candela");
-    else if (place)
+    else if (place && !point)
         units.push_back("radiance");
     const char *unit = nullptr;
     double value = 1;
@@ -167,7 +201,8 @@ void SceneReader::read_strength(const Section &section, const glm::dvec3 &target
             unit = key;
             value = *given;
         }
-    const std::string_view given = unit ? unit : "strength";
+    // A profile has candelas of its own
+    const std::string_view given = unit ? unit : (point && point->profile ? "candela" : "strength");
     const double unit_of_lux = kPi / white_lux_; // see light.h
     double &emission = emission_of(light);
     emission = 1;
@@ -190,18 +225,6 @@ void SceneReader::read_strength(const Section &section, const glm::dvec3 &target
                                    "expected another 'at', or another unit");
         emission = value * (given == "lux" ? unit_of_lux : kPi) / unscaled;
     }
-}
-
-void SceneReader::read_environment() {
-    const auto section = root_.section("environment");
-    if (!section)
-        return;
-    Environment &environment = file_.environment.emplace(
-        Environment{.radiance = section->number("radiance", 0, kLargest).value_or(1),
-                    .group = group(*section, "environment"),
-                    .visible = section->flag("visible").value_or(true)});
-    if (const auto picture = existing_file(*section, "picture", false); !picture.empty())
-        note(*section, "picture", [&] { environment.picture = read_image(picture); });
 }
 
 } // namespace tsuya::scene

@@ -10,6 +10,7 @@
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/relight.h"
 #include "tsuya/color/spectrum_file.h"
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
@@ -38,6 +39,8 @@ NamedLamp with_file_name(NamedLamp lamp) {
 
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
                     const DisplayOptions &look) {
+    if (lamps.size() == 1 && lamps[0].name == kOwnLamps)
+        return picture_under(transport, own_lamps(transport), look);
     std::vector<Spectrum> spectra;
     RelightOptions options;
     for (const NamedLamp &lamp : lamps) {

@@ -1,6 +1,7 @@
 #include "tsuya/scene/scene_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "dressing.h"
@@ -9,6 +10,7 @@
 #include "patterns.h"
 #include "scene_meshes.h"
 #include "scene_reader.h"
+#include "studio_stage.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
@@ -209,11 +211,17 @@ struct SceneBuilder {
     void add_camera_and_lights() {
         Scene &scene = built.scene;
         scene.light_groups = file.light_groups;
+        built.own_lamps = file.own_lamps;
         scene.lights = file.lights;
         scene.environment = file.environment;
         scene.camera = file.camera ? *file.camera : frame_points(meshes.points(), file.framing);
         if (file.focus && scene.camera.lens)
             scene.camera.lens->focus_distance = distance_along_view(scene.camera, *file.focus);
+        if (!file.studio.empty()) {
+            const glm::dvec3 back = scene.camera.eye - scene.camera.target;
+            add_studio_to(scene, built.own_lamps, file.studio, meshes.points(),
+                          std::atan2(back.x, back.z), !file.backdrop);
+        }
     }
 
     void check_and_refine() {

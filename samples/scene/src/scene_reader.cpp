@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 
@@ -23,6 +24,7 @@ std::filesystem::path SceneReader::existing_file(const Section &section, std::st
 
 void SceneReader::read() {
     read_camera();
+    read_studio();
     read_fabrics();
     read_meshes("garments", true, file_.garments);
     read_meshes("bodies", false, file_.bodies);
@@ -35,9 +37,9 @@ void SceneReader::read() {
     if (file_.garments.empty() && file_.bodies.empty())
         root_.problem("garments", "the scene has no garment and no body",
                       "expected [garments.NAME] with mesh and fabric");
-    if (!names_light_ && !file_.environment)
+    if (!names_light_ && !file_.environment && file_.studio.empty())
         root_.problem("lights", "the scene has no light",
-                      "expected [lights.NAME] or [environment]");
+                      "expected [lights.NAME], [environment] or a studio");
 }
 
 void SceneReader::read_backdrop() {
@@ -106,7 +108,7 @@ void SceneReader::read_output() {
         return;
     if (const auto lamps = section->texts("lamps"); lamps && !lamps->empty())
         note(*section, "lamps", [&] {
-            file_.output.lamps = parse_lamps(*lamps, folder_);
+            file_.output.lamps = parse_picture_lamps(*lamps, folder_);
             for (const NamedLamp &lamp : file_.output.lamps)
                 add_warnings(lamp.warnings);
         });

@@ -45,6 +45,7 @@ class SceneReader {
     void read_grain(const Section &grain, MeshEntry &entry);
     void read_backdrop();
     void read_units();
+    void read_studio();
     void read_lights();
     void read_light(const std::string &name, const Section &section);
     RectangleLight read_rectangle(const Section &section, const glm::dvec3 &target);
@@ -52,6 +53,7 @@ class SceneReader {
     SphereLight read_sphere(const Section &section);
     PointLight read_point(const Section &section);
     PointLight read_spot(const Section &section, const glm::dvec3 &target);
+    PointLight read_luminaire(const Section &section, const glm::dvec3 &target);
     SunLight read_sun(const Section &section);
     LightBehaviour read_behaviour(const Section &section);
     // Scales a light to what its section says of its strength, in one of several units.
@@ -60,6 +62,12 @@ class SceneReader {
     // From the centre of a light to its target.
     static glm::dvec3 facing(const glm::dvec3 &centre, const glm::dvec3 &target);
     void read_environment();
+    // The picture of an environment, from one of several sources.
+    void read_environment_picture(const Section &section, Environment &environment);
+    void read_sky(const Section &sky, Environment &environment);
+    void read_colours(const Section &section, Environment &environment);
+    // The lamp of a group of its own.
+    void read_own_lamp(const Section &section, LightGroupIndex group);
     void read_render();
     void read_output();
 
@@ -83,6 +91,10 @@ class SceneReader {
     std::optional<Spectrum> colour(const Section &section, const char *key);
     std::filesystem::path existing_file(const Section &section, std::string_view key,
                                         bool required);
+    static bool is_file(const std::filesystem::path &path) {
+        std::error_code code;
+        return std::filesystem::is_regular_file(path, code);
+    }
     // Runs `work`; an Error becomes a problem at the key.
     template <class Work> void note(const Section &section, std::string_view key, Work &&work) {
         try {

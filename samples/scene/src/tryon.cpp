@@ -1,7 +1,6 @@
 #include "tsuya/scene/tryon.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <set>
 
@@ -9,6 +8,7 @@
 #include "file_opacity.h"
 #include "patterns.h"
 #include "scene_meshes.h"
+#include "studio_stage.h"
 #include "tryon_cloths.h"
 #include "tryon_files.h"
 #include "tryon_page.h"
@@ -19,6 +19,7 @@
 #include "tsuya/garment/garment.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/studio.h"
 #include "tsuya/scene/video.h"
 #include "tsuya/sdk/angle.h"
@@ -30,24 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The studio, found by looking at the sample dress.
 constexpr double kBodyReflectance = 0.35;
-constexpr double kBackdropReflectance = 0.2;
 constexpr double kElevation = 3 * kDegree;    // of the camera
 constexpr double kAngleOfView = 24 * kDegree; // an 85 mm lens on 36 mm film
-constexpr double kFillRadiance = 0.14;
-
-/// A softbox about a subject of size 1, all of the group `key`.
-struct StudioLight {
-    const char *name;
-    double azimuth, elevation; ///< from the camera, to its right; above the horizon
-    double distance, width, height;
-    double strength;
-};
-constexpr std::array<StudioLight, 2> kStudioLights{{
-    {"key", -56 * kDegree, 30 * kDegree, 1.5, 0.2, 0.5, 0.95},
-    {"strip", 75 * kDegree, 12 * kDegree, 1.4, 0.3, 0.8, 0.3},
-}};
 
 /// A dye with the name that its files bear.
 struct TryOnDye {
@@ -70,17 +56,6 @@ bool has_own_dye(const TryOn &job, const Fabric &fabric) {
     return job.dyes.empty() || (job.keeps_own_dye && fabric.colours.any_dye());
 }
 
-struct Bounds {
-    glm::dvec3 lower{std::numeric_limits<double>::max()}, upper{-lower};
-
-    void add(const std::vector<glm::dvec3> &points) {
-        for (const glm::dvec3 &p : points) {
-            lower = glm::min(lower, p);
-            upper = glm::max(upper, p);
-        }
-    }
-};
-
 void add_object(Scene &scene, const char *name, Surface surface, Fabric fabric) {
     const auto index = static_cast<std::uint32_t>(scene.surfaces.size());
     const auto of_fabric = static_cast<std::uint32_t>(scene.fabrics.size());
@@ -89,45 +64,17 @@ void add_object(Scene &scene, const char *name, Surface surface, Fabric fabric) 
     scene.objects.push_back({name, {index}, {of_fabric}});
 }
 
-/// Key light, fill light and backdrop about what the camera frames.
-void light(Scene &scene, const Bounds &bounds, double azimuth) {
-    const glm::dvec3 middle = 0.5 * (bounds.lower + bounds.upper);
-    const double size = std::max(glm::length(bounds.upper - bounds.lower), 1e-3);
-    scene.light_groups = {"key", "fill"};
-    for (const StudioLight &box : kStudioLights) {
-        scene.lights.push_back(
-            make_light({.centre = middle + box.distance * size *
-                                               direction_of(azimuth + box.azimuth, box.elevation),
-                        .target = middle,
-                        .width = box.width * size,
-                        .height = box.height * size,
-                        .strength = box.strength,
-                        .group = {0}}));
-        std::get<RectangleLight>(scene.lights.back()).name = box.name;
-    }
-    scene.environment = Environment{.radiance = kFillRadiance, .group = {1}, .visible = true};
-    add_object(scene, "backdrop",
-               make_cyclorama({.centre = {middle.x, bounds.lower.y, middle.z},
-                               .azimuth = azimuth,
-                               .width = 8 * size,
-                               .front = 3 * size,
-                               .back = 1.6 * size,
-                               .height = 4 * size,
-                               .radius = 0.8 * size}),
-               {.name = "backdrop", .colours = {.dye = Spectrum::constant(kBackdropReflectance)}});
-}
-
 /// The camera that frames all points, and the light about them.
-void add_studio(const TryOn &job, const std::vector<glm::dvec3> &points, Scene &scene) {
+void add_studio(const TryOn &job, const std::vector<glm::dvec3> &points, Scene &scene,
+                std::vector<std::string> &own_lamps) {
     scene.camera = frame_points(points, {.azimuth = job.azimuth_deg * kDegree,
                                          .elevation = kElevation,
                                          .vertical_angle = kAngleOfView,
                                          .margin = 0.07,
                                          .width = job.width,
                                          .height = job.height});
-    Bounds bounds;
-    bounds.add(points);
-    light(scene, bounds, job.azimuth_deg * kDegree);
+    scene.light_groups.clear();
+    add_studio_to(scene, own_lamps, job.studio, points, job.azimuth_deg * kDegree, true);
 }
 
 /// Turns the AOV `object`, where the garment is 1, into the garment's coverage: 1 where every
@@ -249,12 +196,15 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
                    {.name = "body", .colours = {.dye = Spectrum::constant(kBodyReflectance)}});
     const std::vector<glm::dvec3> &points = stage.meshes.points();
     if (job.turntable > 0) {
-        Bounds bounds;
-        bounds.add(points);
-        stage.axis = 0.5 * (bounds.lower + bounds.upper);
-        add_studio(job, all_turns(points, stage.axis, job.turntable), scene);
+        glm::dvec3 lower = points.front(), upper = lower;
+        for (const glm::dvec3 &p : points) {
+            lower = glm::min(lower, p);
+            upper = glm::max(upper, p);
+        }
+        stage.axis = 0.5 * (lower + upper);
+        add_studio(job, all_turns(points, stage.axis, job.turntable), scene, stage.shown.own_lamps);
     } else {
-        add_studio(job, points, scene);
+        add_studio(job, points, scene, stage.shown.own_lamps);
     }
     stage.meshes.refine(scene);
     stage.shown.report = stage.meshes.report(0);
@@ -351,7 +301,8 @@ RenderResult render_try_on(const Scene &scene, const RenderSettings &settings,
 TryOnResult run(const TryOn &job, const Progress &progress) {
     check_pictures();
     std::vector<TryOnDye> dyes = parse_dyes(job);
-    const std::vector<NamedLamp> lamps = parse_lamps(job.lamps);
+    const std::vector<NamedLamp> lamps = parse_picture_lamps(job.lamps);
+    studio_description(job.studio);
     view_description(job.look.view);
     Stage stage = make_stage(job, progress);
     Scene &scene = stage.shown.scene;
@@ -392,6 +343,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
             result.stats.push_back(rendered.stats);
             result.interrupted = rendered.stats.interrupted;
             add_warnings(rendered, result);
+            note_own_lamps(rendered.image, stage.shown.own_lamps);
             image = std::move(rendered.image);
             if (!result.interrupted && !key.empty())
                 image.metadata["render_key"] = key;

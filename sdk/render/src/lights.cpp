@@ -156,13 +156,14 @@ float Lights::choice_probability(const Receiver &receiver, std::size_t light) co
 
 std::optional<LightRay> Lights::sample(std::size_t light, const glm::vec3 &from,
                                        glm::vec2 u) const {
-    std::optional<LightRay> ray;
-    if (light < near_.size())
-        ray = std::visit([&](const auto &l) { return l.sample(from, u); }, near_[light]);
-    else if (light < environment_light())
-        ray = suns_[light - near_.size()].sample(u);
-    else
+    if (light == environment_light())
         return sample_environment(u);
+    const auto sample_one = [&](const auto &l) { return l.sample(from, u); };
+    if (light < near_.size() && traits_[light].shadows)
+        return std::visit(sample_one, near_[light]);
+    std::optional<LightRay> ray = light < near_.size() ? std::visit(sample_one, near_[light])
+                                                       : suns_[light - near_.size()].sample(u);
+    // No ray is to meet a light that goes through everything
     if (ray && !traits_[light].shadows && ray->pdf < kOnlyDirection) {
         ray->radiance /= ray->pdf;
         ray->pdf = kOnlyDirection;
@@ -170,11 +171,9 @@ std::optional<LightRay> Lights::sample(std::size_t light, const glm::vec3 &from,
     return ray;
 }
 
-std::optional<LightMet> Lights::seen(const glm::vec3 &from, const glm::vec3 &direction,
-                                     float farthest) const {
+std::optional<LightMet> Lights::nearest_seen(const glm::vec3 &from, const glm::vec3 &direction,
+                                             float farthest) const {
     std::optional<LightMet> nearest;
-    if (!any_seen_)
-        return nearest;
     tree_.cross(from, direction, [&](std::size_t i) {
         if (!traits_[i].visible)
             return false;
@@ -194,9 +193,9 @@ std::optional<LightMet> Lights::seen(const glm::vec3 &from, const glm::vec3 &dir
     return nearest;
 }
 
-bool Lights::block(const glm::vec3 &from, const glm::vec3 &direction, float farthest,
-                   std::size_t to) const {
-    return obstacles_ && tree_.cross(from, direction, [&](std::size_t i) {
+bool Lights::is_blocked(const glm::vec3 &from, const glm::vec3 &direction, float farthest,
+                        std::size_t to) const {
+    return tree_.cross(from, direction, [&](std::size_t i) {
         if (!traits_[i].blocks || i == to)
             return false;
         const std::optional<float> distance = std::visit(
@@ -205,10 +204,8 @@ bool Lights::block(const glm::vec3 &from, const glm::vec3 &direction, float fart
     });
 }
 
-bool Lights::end_at_obstacle(const glm::vec3 &from, const glm::vec3 &direction,
-                             float &farthest) const {
-    if (!obstacles_)
-        return false;
+bool Lights::find_obstacle(const glm::vec3 &from, const glm::vec3 &direction,
+                           float &farthest) const {
     bool ended = false;
     tree_.cross(from, direction, [&](std::size_t i) {
         const std::optional<float> distance =

@@ -85,7 +85,9 @@ class Lights {
     // What the camera sees of lights nearer than `farthest`: the nearest, which hides what is
     // behind it. Empty where it sees through all of them.
     std::optional<LightMet> seen(const glm::vec3 &from, const glm::vec3 &direction,
-                                 float farthest) const;
+                                 float farthest) const {
+        return any_seen_ ? nearest_seen(from, direction, farthest) : std::nullopt;
+    }
     // Calls `see(LightMet)` for all that a camera ray meets that leaves the scene.
     template <class F> void see_distant(const glm::vec3 &direction, F &&see) const {
         meet_distant(direction, [&](const LightMet &met) {
@@ -94,13 +96,16 @@ class Lights {
         });
     }
 
-    bool has_obstacles() const { return obstacles_; }
     // A light that blocks, other than `to`, is nearer than `farthest`.
     bool block(const glm::vec3 &from, const glm::vec3 &direction, float farthest,
-               std::size_t to) const;
+               std::size_t to) const {
+        return obstacles_ && is_blocked(from, direction, farthest, to);
+    }
     // Ends a ray at the nearest light that blocks: `farthest` becomes just as far.
     // \return whether it did
-    bool end_at_obstacle(const glm::vec3 &from, const glm::vec3 &direction, float &farthest) const;
+    bool end_at_obstacle(const glm::vec3 &from, const glm::vec3 &direction, float &farthest) const {
+        return obstacles_ && find_obstacle(from, direction, farthest);
+    }
 
   private:
     using Near = std::variant<LightRectangle, LightDisk, LightSphere, LightPoint>;
@@ -128,6 +133,11 @@ class Lights {
         return false;
     }
     // \param channel of the picture
+    std::optional<LightMet> nearest_seen(const glm::vec3 &from, const glm::vec3 &direction,
+                                         float farthest) const;
+    bool is_blocked(const glm::vec3 &from, const glm::vec3 &direction, float farthest,
+                    std::size_t to) const;
+    bool find_obstacle(const glm::vec3 &from, const glm::vec3 &direction, float &farthest) const;
     LightMet meet_environment(const glm::vec3 &direction, std::size_t channel) const;
     Parts environment_parts(const glm::vec3 &to_light) const;
     std::size_t environment_light() const { return near_.size() + suns_.size(); }

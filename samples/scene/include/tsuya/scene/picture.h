@@ -18,7 +18,8 @@ namespace tsuya::scene {
 inline DisplayOptions default_look() { return {.adapt = Adaptation::none, .view = "Soft"}; }
 
 /// Display-encoded R, G, B of the transport under one lamp for all light groups, or one for each,
-/// each times its factor.
+/// each times its factor; under one of the name `own`, each group has the lamp of its own, see
+/// own_lamps.h.
 /// Where the look adapts, the eye is used to the lamp of the first group. Throws Error as relight
 /// and display.
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,

@@ -85,7 +85,11 @@ struct SceneFile {
     std::vector<MeshEntry> garments{};
     std::vector<MeshEntry> bodies{};
     std::optional<BackdropEntry> backdrop{};
+    std::string studio{}; ///< see make_studio; empty: none
     std::vector<std::string> light_groups{};
+    std::vector<std::string> own_lamps{}; ///< of each light group: what parse_lamp takes, or empty
+    /// Of a coloured environment, see EnvironmentColours::error.
+    std::optional<double> environment_error{};
     std::vector<Light> lights{};
     std::vector<std::string> light_places{}; ///< file:line:column of each light
     std::optional<Environment> environment{};
@@ -131,8 +135,9 @@ class SceneFrames {
 /// A scene file with its meshes and fabrics loaded.
 struct BuiltScene {
     Scene scene{};
-    std::vector<MeshReport> reports{}; ///< one a visible mesh
-    SceneFrames frames{};              ///< the scene is in frame 0
+    std::vector<MeshReport> reports{};    ///< one a visible mesh
+    SceneFrames frames{};                 ///< the scene is in frame 0
+    std::vector<std::string> own_lamps{}; ///< of the scene's light groups, see note_own_lamps
 };
 
 /// Loads the meshes and puts the scene together. A camera that frames by itself frames meshes with

@@ -16,6 +16,7 @@
 #include "tsuya/garment/report.h"
 #include "tsuya/garment/seams.h"
 #include "tsuya/scene/picture.h"
+#include "tsuya/scene/studio_preset.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/render.h"
 #include "tsuya/sdk/scene.h"
@@ -70,9 +71,10 @@ struct TryOn {
     /// One row of the sheet each, see parse_dye. Empty: the fabric's own dye. One render serves all
     /// of them where its channels can be depths of dye, see dye_variables; else each has its own.
     std::vector<std::string> dyes{"white", "crimson"};
-    bool wavelengths = false;   ///< channels are wavelengths, one render a dye
-    bool keeps_own_dye = false; ///< a dyed fabric has its own dye in place of `dyes`
-    std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_lamps
+    bool wavelengths = false;            ///< channels are wavelengths, one render a dye
+    bool keeps_own_dye = false;          ///< a dyed fabric has its own dye in place of `dyes`
+    std::string studio = kDefaultStudio; ///< see make_studio
+    std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_picture_lamps
     double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
     int width = 800;
     int height = 1000;
@@ -95,13 +97,15 @@ TryOn sample_try_on(const std::filesystem::path &data);
 /// A scene with what is found about its garment.
 struct TryOnScene {
     Scene scene{};
+    std::vector<std::string> own_lamps{}; ///< of the scene's light groups, see note_own_lamps
     garment::Report report{};
 };
 
-/// The studio of a try-on with the fabric's own dye: the camera in front frames the garment, a
-/// softbox from the left of the picture and a weaker one from its right are the light group `key`,
-/// a weak uniform light from everywhere is the group `fill`. Everything scales with the garment.
-/// The garment's fabric is the first. Throws Error for files that cannot be read, and Interrupted.
+/// The studio of a try-on with the fabric's own dye: the camera in front frames the garment, the
+/// lights of the studio stand about it, everything scales with the garment. Without another studio
+/// a softbox from the left of the picture and a weaker one from its right are the light group
+/// `key`, a weak uniform light from everywhere is the group `fill`. The garment's fabric is the
+/// first. Throws Error for files that cannot be read, and Interrupted.
 TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
 
 /// Renders the scene of a try-on with one AOV, `coverage`: 1 where the garment fills

@@ -1,0 +1,18 @@
+#pragma once
+// A studio put into a scene.
+
+#include <string>
+#include <vector>
+
+#include "tsuya/scene/studio_preset.h"
+#include "tsuya/sdk/scene.h"
+
+namespace tsuya::scene {
+
+// Adds the lights of a studio about points, in groups of their names; its environment and its
+// backdrop where the scene is to have them. \param own_lamps of the scene's groups, in their order;
+// grows with them
+void add_studio_to(Scene &scene, std::vector<std::string> &own_lamps, const std::string &name,
+                   const std::vector<glm::dvec3> &points, double azimuth, bool backdrop);
+
+} // namespace tsuya::scene
