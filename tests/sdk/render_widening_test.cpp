@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <variant>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -82,7 +83,7 @@ TEST(Widening, TellsByHowMuchItChangesTheMean) {
     Scene scene = folded_mirror(32);
     scene.fabrics[0].specular = GgxFacets{.alpha_weft = 0.15, .alpha_warp = 0.15, .f0 = 1};
     scene.environment.reset();
-    scene.rectangles[0].corner.y += 1.5;
+    std::get<RectangleLight>(scene.lights[0]).corner.y += 1.5;
     look_at_floor(scene);
     std::vector<double> told, done;
     for (std::uint32_t seed = 0; seed < 12; ++seed) {
