@@ -32,13 +32,8 @@ bool lit(const SpectralImage &image, int x, int y) {
     return false;
 }
 
-std::vector<char> pixels_that_count(const SpectralImage &image, const CompareOptions &options) {
-    const auto name =
-        std::find(image.aov_names.begin(), image.aov_names.end(), options.coverage_aov);
-    const Image *coverage =
-        name == image.aov_names.end()
-            ? nullptr
-            : &image.aovs[static_cast<std::size_t>(name - image.aov_names.begin())];
+std::vector<char> pixels_that_count(const SpectralImage &image) {
+    const Image *const coverage = garment_coverage(image);
     std::vector<char> counts;
     counts.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     for (int y = 0; y < image.height; ++y)
@@ -50,7 +45,9 @@ std::vector<char> pixels_that_count(const SpectralImage &image, const CompareOpt
 /// CIELAB of each pixel, adapted to sRGB's white; also takes the pixels that are not finite out.
 std::vector<glm::vec3> lab_picture(const SpectralImage &transport, const NamedLamp &lamp,
                                    const CompareOptions &options, std::vector<char> &counts) {
-    const Image xyz = relight(transport, lamp.spectrum, {.observer = options.observer});
+    Image xyz = relight(transport, lamp.spectrum, {.observer = options.observer});
+    if (transport.alpha)
+        divide_by_alpha(xyz, *transport.alpha);
     const glm::dvec3 to = srgb_white();
     const glm::dmat3 adapt =
         lamp.factor * std::exp2(options.exposure_stops) *
@@ -93,11 +90,19 @@ LampDifference difference(const std::vector<glm::vec3> &a, const std::vector<glm
 
 } // namespace
 
+const Image *garment_coverage(const SpectralImage &transport) {
+    for (const char *name : {"garment", "coverage"})
+        for (std::size_t i = 0; i < transport.aovs.size(); ++i)
+            if (transport.aov_names[i] == name)
+                return &transport.aovs[i];
+    return transport.alpha ? &*transport.alpha : nullptr;
+}
+
 std::vector<LampDifference> compare_lamps(const SpectralImage &transport,
                                           std::span<const NamedLamp> lamps,
                                           const CompareOptions &options) {
     check(lamps);
-    std::vector<char> counts = pixels_that_count(transport, options);
+    std::vector<char> counts = pixels_that_count(transport);
     std::vector<std::vector<glm::vec3>> labs;
     for (const NamedLamp &named : lamps)
         labs.push_back(lab_picture(transport, named, options, counts));

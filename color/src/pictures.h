@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,12 +20,21 @@
 
 namespace tsuya {
 
+/// Where a part of a picture lies: its upper left corner, and the size of the whole.
+struct PicturePlace {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
 /// A picture to write, row by row.
 struct OutputPicture {
-    int width = 0;
+    int width = 0; ///< of what is written
     int height = 0;
+    /// Its place in a picture that may be larger; empty: it is the whole
+    std::optional<PicturePlace> place{};
     std::vector<std::string> channels{};
     SampleType samples = SampleType::float32;
+    /// Number of the channel from which on all are float32: those before are as `samples` says
+    std::size_t exact_from = std::numeric_limits<std::size_t>::max();
     std::map<std::string, std::string> attributes{};
     /// Fills one row: width x channels floats, interleaved.
     std::function<void(int y, float *row)> fill_row{};
@@ -33,6 +44,7 @@ struct OutputPicture {
 struct InputPicture {
     std::string format{}; ///< OpenImageIO's name of the file format, e.g. openexr
     Image image{};
+    PicturePlace place{}; ///< its pixels in the whole that the file describes
     std::map<std::string, std::string> attributes{};
 };
 

@@ -110,6 +110,15 @@ Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
     return xyz;
 }
 
+void divide_by_alpha(Image &xyz, const Image &alpha) {
+    const std::size_t channels = xyz.channels.size();
+    for (std::size_t p = 0; p < alpha.data.size(); ++p)
+        for (std::size_t c = 0; c < channels; ++c) {
+            float &value = xyz.data[p * channels + c];
+            value = alpha.data[p] > 0 ? value / alpha.data[p] : 0.0f;
+        }
+}
+
 Image relight(const SpectralImage &transport, const Spectrum &lamp, const RelightOptions &options) {
     return relight(transport, std::span<const Spectrum>(&lamp, 1), options);
 }

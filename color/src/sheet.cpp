@@ -166,10 +166,17 @@ class Pen {
 
 void paste(const Image &picture, int left, int top, Image &sheet) {
     const auto from = channel_indices(picture, {"R", "G", "B"}, "sheet.pictures");
+    const auto alpha = std::find(picture.channels.begin(), picture.channels.end(), "A");
+    const auto alpha_index = static_cast<std::size_t>(alpha - picture.channels.begin());
     for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x)
-            for (std::size_t c = 0; c < 3; ++c)
-                sheet.pixel(left + x, top + y)[c] = picture.pixel(x, y)[from[c]];
+        for (int x = 0; x < picture.width; ++x) {
+            const float *const pixel = picture.pixel(x, y);
+            const float share = alpha == picture.channels.end() ? 1.0f : pixel[alpha_index];
+            for (std::size_t c = 0; c < 3; ++c) {
+                float &to = sheet.pixel(left + x, top + y)[c];
+                to = share < 1 ? to + share * (pixel[from[c]] - to) : pixel[from[c]];
+            }
+        }
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 #include <unordered_map>
 
@@ -10,6 +10,7 @@
 #include "rows.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/sdk/detail/counted.h"
+#include "tsuya/sdk/detail/memory.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/light_group.h"
 
@@ -19,6 +20,7 @@ namespace {
 // Rises when a file of an earlier version could not be read as before.
 constexpr const char *kSchema = "tsuya-spectral-1";
 constexpr const char *kMetaPrefix = "tsuya:meta:";
+constexpr const char *kAlphaKey = "tsuya:alpha", *kAlphaChannel = "A";
 constexpr const char *kOurs = "expected an EXR that tsuya wrote";
 
 std::string group_key(std::size_t i) { return "tsuya:group." + std::to_string(i); }
@@ -26,9 +28,12 @@ std::string aov_key(std::size_t i) { return "tsuya:aov." + std::to_string(i); }
 std::string aov_channel_key(std::size_t aov, std::size_t channel) {
     return aov_key(aov) + ".channel." + std::to_string(channel);
 }
+// Other programs know the channels of a Cryptomatte by their own names.
 std::string aov_channel_name(const std::string &aov, const std::string &channel) {
-    return "aov." + aov + '.' + channel;
+    const bool is_cryptomatte = aov.starts_with("Crypto") && channel.starts_with(aov);
+    return is_cryptomatte ? channel : "aov." + aov + '.' + channel;
 }
+bool is_cryptomatte_key(const std::string &key) { return key.starts_with("cryptomatte/"); }
 
 std::string basis_text(const SpectralBasis &basis) {
     std::ostringstream text;
@@ -38,11 +43,7 @@ std::string basis_text(const SpectralBasis &basis) {
 }
 
 std::vector<std::string> group_channels(const std::string &group, const SpectralImage &image) {
-    std::vector<std::string> names;
-    for (int k = 0; k < image.basis.count; ++k)
-        names.push_back(image.depths ? group + ".depth." + (k < 10 ? "0" : "") + std::to_string(k)
-                                     : spectral_channel_name(group, image.basis.centre_nm(k)));
-    return names;
+    return transport_channel_names(group, image.basis, image.depths.has_value());
 }
 
 void check(const SpectralImage &image, const std::string &where) {
@@ -74,6 +75,18 @@ void check(const SpectralImage &image, const std::string &where) {
             throw Error({"the AOV '" + image.aov_names[i] + "' has another size", where,
                          "expected the size of the picture"});
     }
+    if (image.alpha)
+        check_image(*image.alpha, where + ": alpha");
+    if (image.alpha && (image.alpha->width != image.width || image.alpha->height != image.height ||
+                        image.alpha->channels.size() != 1))
+        throw Error({"alpha is no picture of the same size", where,
+                     "expected the size of the picture, and one channel"});
+    if (image.data_window) {
+        const auto [x0, y0, x1, y1] = *image.data_window;
+        if (!(0 <= x0 && x0 < x1 && x1 <= image.width && 0 <= y0 && y0 < y1 && y1 <= image.height))
+            throw Error({"the data window does not lie in the picture", where,
+                         "expected x0 < x1 and y0 < y1 within its size"});
+    }
     for (const std::string &group : image.groups)
         check_light_group(group, where);
     if (std::find(image.aov_names.begin(), image.aov_names.end(), "") != image.aov_names.end())
@@ -96,6 +109,11 @@ void describe(const SpectralImage &image, OutputPicture &picture) {
         for (std::string &name : group_channels(image.groups[g], image))
             picture.channels.push_back(std::move(name));
     }
+    if (image.alpha) {
+        picture.attributes[kAlphaKey] = kAlphaChannel;
+        picture.channels.emplace_back(kAlphaChannel);
+    }
+    picture.exact_from = picture.channels.size();
     for (std::size_t i = 0; i < image.aovs.size(); ++i) {
         picture.attributes[aov_key(i)] = image.aov_names[i];
         for (std::size_t c = 0; c < image.aovs[i].channels.size(); ++c) {
@@ -105,7 +123,25 @@ void describe(const SpectralImage &image, OutputPicture &picture) {
         }
     }
     for (const auto &[key, value] : image.metadata)
-        picture.attributes[kMetaPrefix + key] = value;
+        picture.attributes[is_cryptomatte_key(key) ? key : kMetaPrefix + key] = value;
+}
+
+/// The whole picture of a file that has a part of it.
+SpectralImage empty_picture(const InputPicture &picture, const SpectralBasis &basis,
+                            std::vector<std::string> groups, const std::string &where) {
+    const auto [x, y, width, height] = picture.place;
+    const Image &part = picture.image;
+    if (x < 0 || y < 0 || x > width - part.width || y > height - part.height)
+        throw Error({"the data window reaches out of the display window", where, kOurs});
+    detail::need_memory(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
+                            part.channels.size() * sizeof(float),
+                        std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
+                            detail::counted(part.channels.size(), "channel"),
+                        where, "expected a smaller picture");
+    SpectralImage image = SpectralImage::make(width, height, basis, std::move(groups));
+    if (part.width < width || part.height < height)
+        image.data_window = {x, y, x + part.width, y + part.height};
+    return image;
 }
 
 SpectralBasis parse_basis(const std::string &attribute, const std::string &where) {
@@ -141,9 +177,10 @@ SpectralImage parse_header(const InputPicture &picture, const std::string &where
         groups.push_back(*group);
     if (groups.empty())
         throw Error({"the attribute tsuya:group.0 is missing", where, kOurs});
-    SpectralImage image =
-        SpectralImage::make(picture.image.width, picture.image.height, basis, std::move(groups));
+    SpectralImage image = empty_picture(picture, basis, std::move(groups), where);
     image.depths = std::move(depths);
+    if (find(kAlphaKey))
+        image.alpha = Image::make(image.width, image.height, {kAlphaChannel});
     while (const std::string *aov = find(aov_key(image.aovs.size()))) {
         std::vector<std::string> channels;
         while (const auto *channel = find(aov_channel_key(image.aovs.size(), channels.size())))
@@ -154,6 +191,8 @@ SpectralImage parse_header(const InputPicture &picture, const std::string &where
     for (const auto &[key, value] : picture.attributes)
         if (key.starts_with(kMetaPrefix))
             image.metadata[key.substr(std::string_view(kMetaPrefix).size())] = value;
+        else if (is_cryptomatte_key(key))
+            image.metadata[key] = value;
     return image;
 }
 
@@ -190,24 +229,23 @@ void copy_row(const Image &image, int y, const std::vector<std::size_t> &from, f
 
 } // namespace
 
-std::string spectral_channel_name(const std::string &group, double wavelength_nm) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.3f", wavelength_nm);
-    std::string text = number;
-    std::replace(text.begin(), text.end(), '.', ','); // [Fichet] dots separate layers
-    return group + ".S0." + text + "nm";
-}
-
 void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &image,
                         SampleType samples) {
     check(image, path.string());
-    OutputPicture picture{.width = image.width, .height = image.height, .samples = samples};
+    const auto [x0, y0, x1, y1] =
+        image.data_window.value_or(std::array<int, 4>{0, 0, image.width, image.height});
+    OutputPicture picture{.width = x1 - x0, .height = y1 - y0, .samples = samples};
+    if (image.data_window)
+        picture.place = {x0, y0, image.width, image.height};
     describe(image, picture);
     const auto channels = static_cast<std::size_t>(image.basis.count);
-    picture.fill_row = [&](int y, float *out) {
-        for (int x = 0; x < image.width; ++x) {
+    picture.fill_row = [&, left = x0, right = x1, top = y0](int row, float *out) {
+        const int y = top + row;
+        for (int x = left; x < right; ++x) {
             for (std::size_t g = 0; g < image.groups.size(); ++g)
                 out = std::copy_n(image.pixel(g, x, y), channels, out);
+            if (image.alpha)
+                *out++ = *image.alpha->pixel(x, y);
             for (const Image &aov : image.aovs)
                 out = std::copy_n(aov.pixel(x, y), aov.channels.size(), out);
         }
@@ -222,19 +260,25 @@ SpectralImage read_spectral_exr(const std::filesystem::path &path) {
     std::vector<std::vector<std::size_t>> from_group, from_aov;
     for (const std::string &group : image.groups)
         from_group.push_back(finder.find(group_channels(group, image)));
+    const std::vector<std::size_t> from_alpha =
+        image.alpha ? finder.find({kAlphaChannel}) : std::vector<std::size_t>{};
     for (std::size_t i = 0; i < image.aovs.size(); ++i) {
         std::vector<std::string> names;
         for (const std::string &channel : image.aovs[i].channels)
             names.push_back(aov_channel_name(image.aov_names[i], channel));
         from_aov.push_back(finder.find(names));
     }
-    const std::size_t row = static_cast<std::size_t>(image.width) * picture.image.channels.size();
-    for_rows(image.height, row, [&](int first, int end) {
+    const Image &part = picture.image;
+    const std::size_t row = static_cast<std::size_t>(part.width) * part.channels.size();
+    const auto [left, top, width, height] = picture.place;
+    for_rows(part.height, row, [&, left = left, top = top](int first, int end) {
         for (int y = first; y < end; ++y) {
             for (std::size_t g = 0; g < from_group.size(); ++g)
-                copy_row(picture.image, y, from_group[g], image.pixel(g, 0, y));
+                copy_row(part, y, from_group[g], image.pixel(g, left, top + y));
+            if (image.alpha)
+                copy_row(part, y, from_alpha, image.alpha->pixel(left, top + y));
             for (std::size_t i = 0; i < from_aov.size(); ++i)
-                copy_row(picture.image, y, from_aov[i], image.aovs[i].pixel(0, y));
+                copy_row(part, y, from_aov[i], image.aovs[i].pixel(left, top + y));
         }
     });
     return image;

@@ -57,6 +57,7 @@ std::unique_ptr<Command> make_tryon();
 std::unique_ptr<Command> make_render();
 std::unique_ptr<Command> make_relight();
 std::unique_ptr<Command> make_compare();
+std::unique_ptr<Command> make_aovs();
 std::unique_ptr<Command> make_fabric_fit();
 std::unique_ptr<Command> make_fabric_simulate();
 std::unique_ptr<Command> make_fabric_evaluate();

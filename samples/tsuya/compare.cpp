@@ -11,6 +11,7 @@
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/live_page.h"
 #include "tsuya/color/sheet.h"
+#include "tsuya/scene/exposure.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/scene/tryon.h"
@@ -146,10 +147,12 @@ struct Compare final : Command {
     std::vector<DyedDifferences> compare(const std::vector<PageDress> &dresses,
                                          const std::vector<NamedLamp> &named,
                                          Console &console) const {
-        const DisplayOptions display = look.look();
+        DisplayOptions display = look.look();
+        const std::vector<std::string> rows = dyes.empty() ? std::vector<std::string>{""} : dyes;
+        if (look.metered())
+            display.exposure_stops = metered_stops(dresses, rows, named, display);
         std::vector<DyedDifferences> differences;
         Sheet sheet{.columns = static_cast<int>(named.size())};
-        const std::vector<std::string> rows = dyes.empty() ? std::vector<std::string>{""} : dyes;
         for (std::size_t i = 0; i < dresses.size(); ++i) {
             SpectralImage image = dresses[i].image;
             for (const std::string &dye : rows) {
@@ -183,6 +186,23 @@ struct Compare final : Command {
         if (dresses.size() == 1)
             return of_dye;
         return dresses[dress].name + (dye.empty() ? "" : ", ") + of_dye;
+    }
+
+    static double metered_stops(const std::vector<PageDress> &dresses,
+                                const std::vector<std::string> &rows,
+                                const std::vector<NamedLamp> &named,
+                                const DisplayOptions &display) {
+        scene::ExposureMeter meter(display);
+        for (const PageDress &dress : dresses) {
+            SpectralImage image = dress.image;
+            for (const std::string &dye : rows) {
+                if (!dye.empty())
+                    scene::show_dyes(image, {&dye, 1});
+                for (const NamedLamp &lamp : named)
+                    meter.add(image, {&lamp, 1});
+            }
+        }
+        return meter.stops();
     }
 
     Json json_of_differences(const std::vector<DyedDifferences> &differences) const {

@@ -1,6 +1,10 @@
 #include "look_options.h"
 
+#include <charconv>
+#include <cmath>
+
 #include "tsuya/scene/picture.h"
+#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/model.h"
 
 namespace tsuya::program {
@@ -15,12 +19,30 @@ void LookOptions::add_to(Options &options) {
                   .one_of(adaptation_names());
     options.option("--view", &view, "NAME", "display view, see `tsuya list views`")
         .one_of(view_names());
-    options.option("--exposure", &exposure_stops, "STOPS", "exposure; 1 doubles the light")
-        .range(-20, 20);
+    options
+        .option("--exposure", &exposure, "STOPS",
+                "exposure, -20 to 20 stops, of which each doubles the light; or metered: one for "
+                "all pictures, by the pixels of the garment")
+        .check([this] {
+            if (!metered() && !stops())
+                throw Error(Problem{"'" + exposure + "' is no exposure", "",
+                                    "expected a number from -20 to 20, or metered"});
+        });
+}
+
+std::optional<double> LookOptions::stops() const {
+    double value = 0;
+    const char *const end = exposure.data() + exposure.size();
+    const auto [rest, error] = std::from_chars(exposure.data(), end, value);
+    if (error != std::errc{} || rest != end || !(std::abs(value) <= 20))
+        return {};
+    return value;
 }
 
 DisplayOptions LookOptions::look() const {
-    return {.adapt = parse_adaptation(adapt), .view = view, .exposure_stops = exposure_stops};
+    return {.adapt = parse_adaptation(adapt),
+            .view = view,
+            .exposure_stops = metered() ? 0 : stops().value_or(0)};
 }
 
 void add_sewing_tolerance(Options &options, std::optional<double> &metres) {

@@ -17,15 +17,19 @@ namespace tsuya::program {
 struct LookOptions {
     LookOptions();
     void add_to(Options &options);
+    /// With an exposure of 0 where it is metered.
     DisplayOptions look() const;
+    bool metered() const { return exposure == "metered"; }
 
     /// --adapt was given.
     bool adapt_given() const { return adapt_ && adapt_->given; }
 
     std::string adapt, view;
-    double exposure_stops = 0;
+    std::string exposure = "0"; ///< stops, or `metered`
 
   private:
+    std::optional<double> stops() const;
+
     const Option *adapt_ = nullptr;
 };
 

@@ -14,6 +14,7 @@ constexpr std::array kCommands{
     CommandEntry{"relight", "A picture under a lamp, from one render", make_relight},
     CommandEntry{"compare", "One render under several lamps, with colour differences",
                  make_compare},
+    CommandEntry{"aovs", "The AOVs of a render as pictures on a sheet", make_aovs},
     CommandEntry{"fabric", "Make fabrics from measurements or weaves, examine them", nullptr},
     CommandEntry{"fabric fit", "Fit a fabric to a few measured views", make_fabric_fit},
     CommandEntry{"fabric simulate", "Measure a weave by a virtual goniometer",

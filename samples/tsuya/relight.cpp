@@ -6,6 +6,7 @@
 #include "look_options.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/relight.h"
+#include "tsuya/scene/exposure.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/picture.h"
@@ -43,7 +44,7 @@ struct Relight final : Command {
 
     Status run(Console &console) override {
         scene::check_output_file(output);
-        const DisplayOptions display = look.look();
+        DisplayOptions display = look.look();
         detail::run_with_threads(threads, [&] {
             SpectralImage image = read_spectral_exr(transport);
             console.warnings(scene::show_dyes(image, dyes));
@@ -51,6 +52,11 @@ struct Relight final : Command {
                 scene::parse_group_or_own_lamps(lamps, image, column);
             for (const NamedLamp &lamp : named)
                 console.warnings(lamp.warnings);
+            if (look.metered()) {
+                scene::ExposureMeter meter(display);
+                meter.add(image, named);
+                display.exposure_stops = meter.stops();
+            }
             const Image picture = scene::picture_under(image, named, display);
             scene::prepare_output_file(output);
             write_png(output, picture, bits);

@@ -12,6 +12,7 @@
 #include "look_options.h"
 #include "same_file.h"
 #include "tsuya/color/image_file.h"
+#include "tsuya/scene/exposure.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/scene_file.h"
@@ -37,6 +38,7 @@ struct Render final : Command {
     int video_fps = 0;
     double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
     bool resume = false, explains = false, denoises = false, keeps_lobes = false, no_cache = false;
+    bool alpha = false;
 
     void options(Options &o) override {
         o.argument(&scene, "SCENE.toml", "scene file").required();
@@ -71,6 +73,9 @@ struct Render final : Command {
         o.option("--aov", &aovs, "A,B,...", "AOVs to write beside the light transport")
             .with_commas()
             .one_of(aov_names());
+        o.flag("--alpha", &alpha,
+               "pictures with alpha: without the scene's backdrop, and without the environment "
+               "behind what is shown");
         const Option &sequence =
             o.option("--frames", &frames, "N",
                      "number of frames of a scene that moves, each with results of its own: "
@@ -116,6 +121,7 @@ struct Render final : Command {
             check_output();
         const PhaseClock of_load;
         scene::SceneFile file = scene::read_scene_file(scene, console.progress());
+        file.output.alpha = file.output.alpha || alpha;
         for (std::vector<scene::MeshEntry> *entries : {&file.garments, &file.bodies})
             for (scene::MeshEntry &entry : *entries)
                 if (tolerance_px)
@@ -237,8 +243,12 @@ struct Render final : Command {
         settings.seed = seed.value_or(settings.seed);
         settings.denoise = denoises || settings.denoise;
         settings.widen_after_diffuse = !keeps_lobes && settings.widen_after_diffuse;
+        settings.alpha = file.output.alpha;
         if (!aovs.empty())
             settings.aovs = aovs;
+        if (file.output.metered && !file.output.lamps.empty() &&
+            std::find(settings.aovs.begin(), settings.aovs.end(), "garment") == settings.aovs.end())
+            settings.aovs.emplace_back("garment");
         if (!crop.empty())
             settings.crop = crop_of(file);
         settings.checkpoint = checkpoint();
@@ -335,8 +345,25 @@ struct Render final : Command {
         }
     }
 
+    /// Metered on the first frame, for all.
+    DisplayOptions look_of(const scene::SceneFile &file, const SpectralImage &image) {
+        DisplayOptions look = file.output.look;
+        if (!file.output.metered)
+            return look;
+        if (!metered_stops_) {
+            scene::ExposureMeter meter(look);
+            const SpectralImage first =
+                frame_ == 0 ? SpectralImage{} : read_spectral_exr(transport(0));
+            for (const NamedLamp &lamp : file.output.lamps)
+                meter.add(frame_ == 0 ? image : first, {&lamp, 1});
+            metered_stops_ = meter.stops();
+        }
+        look.exposure_stops = *metered_stops_;
+        return look;
+    }
+
     void write_results(const scene::SceneFile &file, const Scene &shown,
-                       const RenderSettings &settings, RenderResult &result) const {
+                       const RenderSettings &settings, RenderResult &result) {
         const PhaseClock of_write;
         // Stopped before the first sample: what stands under the name is not replaced by nothing
         if (result.stats.interrupted && result.stats.samples_per_pixel == 0)
@@ -349,7 +376,8 @@ struct Render final : Command {
         if (!result.stats.interrupted)
             for (const NamedLamp &lamp : file.output.lamps) {
                 const fs::path path = picture_of(lamp, frame_);
-                write_png(path, scene::picture_under(result.image, {&lamp, 1}, file.output.look));
+                write_png(path, scene::picture_under(result.image, {&lamp, 1},
+                                                     look_of(file, result.image)));
                 std::cout << path.string() << "\n";
             }
         result.stats.phases.push_back(of_write.end("write"));
@@ -361,6 +389,7 @@ struct Render final : Command {
     std::size_t frame_ = 0; ///< that is rendered
     Phase load_{};          ///< of the first frame that is rendered
     std::vector<std::string> own_lamps_{};
+    std::optional<double> metered_stops_{};
 };
 
 } // namespace

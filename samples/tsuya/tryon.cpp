@@ -26,7 +26,8 @@ struct TryOn final : Command {
     LookOptions look{};
     double error = *scene::kTryOnQuality.relative_error;
     std::optional<int> samples{};
-    bool keeps_noise = false, keeps_lobes = false, no_cache = false;
+    std::optional<double> f_number{};
+    bool keeps_noise = false, keeps_lobes = false, no_backdrop = false, no_cache = false;
     const Option *dye = nullptr, *channels = nullptr, *lamps = nullptr;
 
     void options(Options &o) override {
@@ -39,6 +40,8 @@ struct TryOn final : Command {
             "not for frames");
         add_quality(o);
         look.add_to(o);
+        o.flag("--no-backdrop", &no_backdrop,
+               "nothing behind garment and body: pictures with alpha");
         cloth.add_data(o);
         o.example("tsuya tryon --garment dress.obj --fabric black_satin --dye white,indigo "
                   "--lamps D65,A -o out");
@@ -119,6 +122,12 @@ struct TryOn final : Command {
                  "lights and backdrop, see `tsuya list studios`; under their own lamps the picture "
                  "is adapted by CAT02 unless --adapt says otherwise")
             .one_of(scene::studio_names());
+        const Option &aperture =
+            o.option("--f-number", &f_number, "N",
+                     "f-number of a lens on 35 mm film, focused on the garment; everything is "
+                     "sharp where none is given")
+                .range(0.01, 1e6);
+        o.flag("--orthographic", &job.orthographic, "camera of parallel rays").excludes(aperture);
         o.option("--azimuth", &job.azimuth_deg, "DEGREES",
                  "direction of the camera; 0 sees the front")
             .range(-360, 360);
@@ -185,6 +194,10 @@ struct TryOn final : Command {
             if (!look.adapt_given())
                 job.look.adapt = Adaptation::cat02;
         }
+        job.metered = look.metered();
+        job.backdrop = !no_backdrop;
+        if (f_number)
+            job.lens = Lens{.f_number = *f_number};
         job.render.stop.relative_error = error;
         if (samples)
             job.render.stop = {.samples_per_pixel = *samples};

@@ -22,7 +22,7 @@ std::vector<Image> first_hits(int level) {
     return render(scene, {.stop = {.samples_per_pixel = 4},
                           .channels = 8,
                           .max_bounces = 0,
-                          .aovs = {"warp", "depth", "object"}})
+                          .aovs = {"warp", "depth", "garment"}})
         .image.aovs;
 }
 

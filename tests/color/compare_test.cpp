@@ -93,6 +93,28 @@ TEST(Compare, CountsCoveredFinitePixels) {
     *image.aovs[0].pixel(4, 0) = 0.5f;
     *image.aovs[0].pixel(5, 0) = 0.4f;
     EXPECT_EQ(compare_lamps(image, lamps())[0].pixels, 1u);
+    // The garment's counts before it, alpha after it
+    image.aovs.push_back(image.aovs[0]);
+    image.aov_names.push_back("garment");
+    *image.aovs[1].pixel(7, 1) = 1.0f;
+    EXPECT_EQ(compare_lamps(image, lamps())[0].pixels, 2u);
+    image.aovs.clear();
+    image.aov_names.clear();
+    image.alpha = Image::make(20, 3, {"A"});
+    image.alpha->data[30] = image.alpha->data[31] = image.alpha->data[32] = 0.7f;
+    EXPECT_EQ(compare_lamps(image, lamps())[0].pixels, 3u);
+}
+
+// Half of a crimson pixel is as crimson as the whole.
+TEST(Compare, TakesAlphaOutOfTheColours) {
+    SpectralImage whole = crimson_ramp();
+    whole.alpha = Image::make(20, 3, {"A"});
+    std::fill(whole.alpha->data.begin(), whole.alpha->data.end(), 1.0f);
+    SpectralImage half = whole;
+    std::fill(half.alpha->data.begin(), half.alpha->data.end(), 0.5f);
+    for (float &t : half.transport)
+        t *= 0.5f;
+    EXPECT_NEAR(compare_lamps(half, lamps())[0].mean, compare_lamps(whole, lamps())[0].mean, 1e-5);
 }
 
 TEST(Compare, RefusesFewOrRepeatedLamps) {

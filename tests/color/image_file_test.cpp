@@ -12,6 +12,7 @@
 
 #include "color_test.h"
 #include "limited_disk.h"
+#include "some_pictures.h"
 #include "tsuya/color/camera_frame.h"
 #include "tsuya/color/print_file.h"
 #include "tsuya/sdk/detail/threads.h"
@@ -20,66 +21,18 @@
 namespace tsuya {
 namespace {
 
-Image ramp(int width, int height, std::vector<std::string> channels) {
-    Image image = Image::make(width, height, std::move(channels));
-    for (std::size_t i = 0; i < image.data.size(); ++i)
-        image.data[i] = static_cast<float>(i % 256) / 255.0f;
-    return image;
-}
+using namespace tsuya::test;
 
-SpectralImage some_transport() {
-    SpectralImage image = SpectralImage::make(37, 29, {.count = 16}, {"key", "a fill.left"});
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> uniform(-1.0f, 40.0f);
-    for (float &t : image.transport)
-        t = uniform(random);
-    image.aov_names = {"coverage", "normal"};
-    image.aovs = {ramp(37, 29, {"Y"}), ramp(37, 29, {"z", "x", "R"})};
-    image.metadata = {{"samples_per_pixel", "64"}, {"note", "K = 16; \"quoted\""}};
-    return image;
-}
-
-SpectralImage transport_of_dyes() {
-    SpectralImage image = SpectralImage::make(5, 4, {.count = 16}, {"key"});
-    for (std::size_t i = 0; i < image.transport.size(); ++i)
-        image.transport[i] = static_cast<float>(i) / 7;
-    image.depths = make_dye_depths(
-        {{.name = "silk",
-          .dye = {{400, 550.25, 700}, {0.1, 1.0 / 3, 0.9}},
-          .open = true,
-          .highest = 0.953},
-         {.name = "linen.weft", .dye = Spectrum::constant(0.4), .lowest = 0.3, .highest = 0.5}},
-        16);
-    return image;
-}
-
-bool same_bits(const std::vector<float> &a, const std::vector<float> &b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-TEST(ImageFile, DepthsOfDyeAreKeptToTheLastBit) {
+// As PNG has it: colours are not multiplied by alpha, in the file and where it is read as artwork.
+TEST(ImageFile, PngHasUnassociatedAlpha) {
     const test::Folder folder;
-    const SpectralImage image = transport_of_dyes();
-    write_spectral_exr(folder / "d.exr", image);
-    const SpectralImage back = read_spectral_exr(folder / "d.exr");
-    EXPECT_EQ(back.depths, image.depths);
-    EXPECT_EQ(back.basis.count, 16);
-    EXPECT_TRUE(same_bits(back.transport, image.transport));
-    const Image layers = read_image(folder / "d.exr");
-    EXPECT_NE(std::find(layers.channels.begin(), layers.channels.end(), "key.depth.07"),
-              layers.channels.end());
-}
-
-TEST(ImageFile, DepthsOfDyeThatDoNotFitAreRefused) {
-    const test::Folder folder;
-    SpectralImage image = transport_of_dyes();
-    image.depths->node.pop_back();
-    image.depths->degree.pop_back();
-    EXPECT_THROW(write_spectral_exr(folder / "d.exr", image), Error);
-    image.depths->degree.push_back({0, 0}); // of which there is one already
-    image.depths->node.push_back({0.1, 0.3});
-    EXPECT_THROW(write_spectral_exr(folder / "d.exr", image), Error);
-    EXPECT_EQ(folder.size(), 0);
+    Image image = Image::make(3, 1, {"R", "G", "B", "A"});
+    image.data = {1, 0.6f, 0.2f, 0.4f, 0.8f, 0.8f, 0.8f, 0, 0.4f, 1, 0, 1};
+    write_png(folder / "a.png", image);
+    const Texture back = read_artwork(folder / "a.png");
+    ASSERT_EQ(back.channels, 4);
+    for (const std::size_t i : {0, 1, 2, 3, 7, 8, 9, 10, 11})
+        EXPECT_NEAR(back.data[i], 255 * image.data[i], 0.51f) << i;
 }
 
 TEST(ImageFile, PngKeepsCodeValues) {
@@ -130,26 +83,6 @@ TEST(ImageFile, ExrIsExactAndKeepsNames) {
               std::filesystem::file_size(folder / "x.exr"));
 }
 
-TEST(ImageFile, SpectralRoundTripIsExact) {
-    const test::Folder folder;
-    const SpectralImage image = some_transport();
-    write_spectral_exr(folder / "t.exr", image);
-    const SpectralImage back = read_spectral_exr(folder / "t.exr");
-    EXPECT_EQ(back.width, image.width);
-    EXPECT_EQ(back.height, image.height);
-    EXPECT_EQ(back.basis, image.basis);
-    EXPECT_EQ(back.groups, image.groups);
-    EXPECT_TRUE(same_bits(back.transport, image.transport));
-    EXPECT_EQ(back.aov_names, image.aov_names);
-    ASSERT_EQ(back.aovs.size(), image.aovs.size());
-    for (std::size_t i = 0; i < image.aovs.size(); ++i) {
-        EXPECT_EQ(back.aovs[i].channels, image.aovs[i].channels);
-        EXPECT_TRUE(same_bits(back.aovs[i].data, image.aovs[i].data));
-    }
-    EXPECT_EQ(back.metadata, image.metadata);
-    EXPECT_EQ(folder.size(), 1);
-}
-
 TEST(ImageFile, TallPictureIsExact) {
     // More rows than are written at once.
     const test::Folder folder;
@@ -183,44 +116,6 @@ TEST(ImageFile, ThreadsAreThoseOfTheCaller) {
     EXPECT_LE(again, nine - 2 * 8);
     detail::run_with_threads(9, [&] { read_image(folder / "a.exr"); });
     EXPECT_GE(threads_of_process(), one + 2 * 8 - 2);
-}
-
-TEST(ImageFile, SpectralRoundTripOfOddBasis) {
-    const test::Folder folder;
-    for (const SpectralBasis basis : {SpectralBasis{32, 400, 700}, SpectralBasis{1, 500, 600},
-                                      SpectralBasis{7, 380.25, 1e3 / 1.3}}) {
-        SpectralImage image = SpectralImage::make(3, 2, basis, {"key"});
-        for (std::size_t i = 0; i < image.transport.size(); ++i)
-            image.transport[i] = static_cast<float>(i);
-        write_spectral_exr(folder / "t.exr", image);
-        const SpectralImage back = read_spectral_exr(folder / "t.exr");
-        EXPECT_EQ(back.basis, basis);
-        EXPECT_EQ(back.transport, image.transport);
-    }
-}
-
-TEST(ImageFile, SpectralHalfIsNear) {
-    const test::Folder folder;
-    const SpectralImage image = some_transport();
-    write_spectral_exr(folder / "h.exr", image, SampleType::half);
-    const SpectralImage back = read_spectral_exr(folder / "h.exr");
-    bool rounded = false;
-    for (std::size_t i = 0; i < image.transport.size(); ++i) {
-        ASSERT_NEAR(back.transport[i], image.transport[i],
-                    std::abs(image.transport[i]) / 2048 + 1e-7f);
-        rounded = rounded || back.transport[i] != image.transport[i];
-    }
-    EXPECT_TRUE(rounded);
-}
-
-TEST(ImageFile, SpectralChannelsHaveLayoutNames) {
-    EXPECT_EQ(spectral_channel_name("key", 400), "key.S0.400,000nm");
-    EXPECT_EQ(spectral_channel_name("key", 409.67741935), "key.S0.409,677nm");
-    const test::Folder folder;
-    write_spectral_exr(folder / "t.exr", some_transport());
-    const std::vector<std::string> names = read_image(folder / "t.exr").channels;
-    for (const char *name : {"key.S0.420,000nm", "a fill.left.S0.700,000nm", "aov.normal.x"})
-        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
 TEST(ImageFile, RefusesWrongFiles) {
@@ -426,6 +321,15 @@ TEST(ImageFile, RefusesWrongPictures) {
     test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "two channels");
     image.groups[1] = "";
     test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "no name");
+    image = some_transport();
+    image.alpha = ramp(37, 28, {"A"});
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "alpha");
+    image = some_transport();
+    for (const std::array<int, 4> &window :
+         {std::array{0, 0, 38, 29}, {-1, 0, 37, 29}, {5, 5, 5, 9}, {0, 9, 37, 3}}) {
+        image.data_window = window;
+        test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "data window");
+    }
     EXPECT_EQ(folder.size(), 0);
 }
 

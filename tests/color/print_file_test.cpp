@@ -50,7 +50,7 @@ TEST_F(PrintFile, ArtworkIsRgbAsTheFileHasIt) {
 
 TEST_F(PrintFile, AlphaIsCoverageAndLeavesColoursAlone) {
     Image image = Image::make(1, 1, {"R", "G", "B", "A"});
-    image.data = {0.6f, 0, 0.6f, 0.6f}; // write_png takes colours times alpha
+    image.data = {1, 0, 1, 0.6f};
     const Texture texture = read_artwork(png(image));
     EXPECT_EQ(texture.channels, 4);
     EXPECT_EQ(texture.data, (Bytes{255, 0, 255, 153}));

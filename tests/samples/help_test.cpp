@@ -50,7 +50,7 @@ TEST(Help, TellsTheVersionAndEachCommand) {
     EXPECT_EQ(help.status, 0);
     EXPECT_EQ(help.err, "");
     EXPECT_EQ(listed_commands(help.out),
-              (std::vector<std::string>{"tryon", "render", "relight", "compare", "fabric",
+              (std::vector<std::string>{"tryon", "render", "relight", "compare", "aovs", "fabric",
                                         "garment", "lab", "list"}));
     for (const std::string &command : all_commands()) {
         std::vector<std::string> call{command.substr(0, command.find(' '))};

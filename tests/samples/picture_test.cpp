@@ -1,10 +1,15 @@
 #include "tsuya/scene/picture.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "samples/scratch.h"
 #include "tsuya/color/lamp.h"
+#include "tsuya/color/sheet.h"
 #include "tsuya/color/srgb.h"
+#include "tsuya/scene/aov_picture.h"
+#include "tsuya/scene/exposure.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/sdk/error.h"
 
@@ -63,6 +68,140 @@ TEST(Lamps, FactorsScaleTheirGroups) {
     EXPECT_NEAR(grey({"0.5*D65"}), 0.1, 1e-4);
     EXPECT_NEAR(grey({"key=D65*3", "fill=500lx*D65"}), 0.35, 1e-4);
     EXPECT_NEAR(grey({"key=0*D65", "fill=D65"}), 0.1, 1e-4);
+}
+
+/// An even picture of a dye with a garment in its middle.
+SpectralImage even_picture(double garment, double around) {
+    SpectralImage image = SpectralImage::make(20, 10, {.count = 8}, {"key"});
+    image.aov_names = {"garment"};
+    image.aovs = {Image::make(20, 10, {"A"})};
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const bool covered = x >= 5 && x < 15;
+            *image.aovs[0].pixel(x, y) = covered ? 1.0f : (x == 4 ? 0.5f : 0.0f);
+            std::fill_n(image.pixel(0, x, y), 8, static_cast<float>(covered ? garment : around));
+        }
+    return image;
+}
+
+/// Codes of 255 of the green channel.
+std::vector<double> codes_of(const SpectralImage &image, const std::vector<NamedLamp> &lamp,
+                             DisplayOptions look, double stops) {
+    look.exposure_stops = stops;
+    const Image picture = picture_under(image, lamp, look);
+    std::vector<double> codes;
+    for (std::size_t i = 1; i < picture.data.size(); i += picture.channels.size())
+        codes.push_back(255 * static_cast<double>(picture.data[i]));
+    return codes;
+}
+
+TEST(Exposure, AnEvenGarmentShowsAt235InEachView) {
+    const std::vector<NamedLamp> d65 = parse_lamps(Texts{"D65"});
+    for (const std::string view : {"Plain", "Soft"})
+        for (const double value : {0.02, 0.3, 4.0}) {
+            const DisplayOptions look{.view = view};
+            // A bright wall and pixels that show little of the garment do not count
+            const SpectralImage image = even_picture(value, 50);
+            ExposureMeter meter(look);
+            meter.add(image, d65);
+            const std::vector<double> codes = codes_of(image, d65, look, meter.stops());
+            EXPECT_NEAR(codes[10], 235, 1) << view << value;
+        }
+}
+
+TEST(Exposure, TheBrightestOfAJobDecides) {
+    const std::vector<NamedLamp> lamps = parse_lamps(Texts{"D65", "A"});
+    ExposureMeter both(DisplayOptions{}), white(DisplayOptions{});
+    for (const NamedLamp &lamp : lamps) {
+        both.add(even_picture(0.04, 1), {&lamp, 1});
+        both.add(even_picture(0.8, 1), {&lamp, 1});
+        white.add(even_picture(0.8, 1), {&lamp, 1});
+    }
+    EXPECT_EQ(both.stops(), white.stops());
+    EXPECT_EQ(ExposureMeter(DisplayOptions{}).stops(), 0);
+    EXPECT_THROW(ExposureMeter(DisplayOptions{.view = "soft"}), Error);
+}
+
+// Highlights on a tenth of the garment, and on too little of it to count.
+TEST(Exposure, ClipsAtMostAHundredth) {
+    const std::vector<NamedLamp> d65 = parse_lamps(Texts{"D65"});
+    const auto clipped = [&](int highlights) {
+        SpectralImage image = even_picture(0.3, 0);
+        for (int i = 0; i < highlights; ++i)
+            std::fill_n(image.pixel(0, 5 + i % 10, i / 10), 8, 6.0f);
+        ExposureMeter meter(DisplayOptions{});
+        meter.add(image, d65);
+        const std::vector<double> codes = codes_of(image, d65, {}, meter.stops());
+        return std::pair(
+            std::count_if(codes.begin(), codes.end(), [](double c) { return c > 254.6; }),
+            codes[199 - 5]);
+    };
+    EXPECT_EQ(clipped(10).first, 0);
+    EXPECT_LT(clipped(10).second, 80);
+    EXPECT_EQ(clipped(1).first, 1); // of 100
+    EXPECT_NEAR(clipped(1).second, 235, 1);
+}
+
+TEST(PictureUnder, HasAlphaWhereTheTransportHas) {
+    const std::vector<NamedLamp> d65 = parse_lamps(Texts{"D65"});
+    SpectralImage image = even_picture(0.5, 0);
+    const Image opaque = picture_under(image, d65, {});
+    EXPECT_EQ(opaque.channels.size(), 3u);
+    image.alpha = Image::make(20, 10, {"A"});
+    for (int y = 0; y < 10; ++y)
+        for (int x = 5; x < 15; ++x) {
+            *image.alpha->pixel(x, y) = 0.25f;
+            for (int k = 0; k < 8; ++k)
+                image.pixel(0, x, y)[k] *= 0.25f;
+        }
+    const Image picture = picture_under(image, d65, {});
+    EXPECT_EQ(picture.channels, (Texts{"R", "G", "B", "A"}));
+    EXPECT_EQ(picture.pixel(7, 5)[3], 0.25f);
+    EXPECT_NEAR(picture.pixel(7, 5)[1], opaque.pixel(7, 5)[1], 1e-5);
+    EXPECT_EQ(picture.pixel(0, 0)[3], 0);
+    // On a sheet it lies on the ground
+    const Image sheet = draw_sheet({.pictures = {{picture, ""}}});
+    const float ground = sheet.pixel(0, 0)[1];
+    const int left = sheet.width - 20 - 8, top = sheet.height - 10 - 8;
+    EXPECT_NEAR(sheet.pixel(left + 7, top + 5)[1], 0.75f * ground + 0.25f * picture.pixel(7, 5)[1],
+                1e-5);
+}
+
+TEST(AovPicture, ShowsEachKind) {
+    SpectralImage image = even_picture(0.5, 0);
+    const NamedLamp d65 = parse_lamps(Texts{"D65"})[0];
+    image.aov_names = {"depth", "normal", "direct", "albedo", "CryptoObject", "uv"};
+    const Texts direct = transport_channel_names("key", image.basis, false);
+    const Texts albedo = reflectance_channel_names(image.basis, false);
+    image.aovs.clear();
+    for (const Texts &channels : {Texts{"Z"}, Texts{"X", "Y", "Z"}, direct, albedo,
+                                  Texts{"CryptoObject00.R", "CryptoObject00.G"}, Texts{"U", "V"}})
+        image.aovs.push_back(Image::make(20, 10, channels));
+    const auto set = [&](std::size_t aov, std::vector<float> values) {
+        std::copy(values.begin(), values.end(), image.aovs[aov].pixel(3, 2));
+    };
+    const auto shown = [&](std::size_t aov) { return aov_picture(image, aov, d65, {}); };
+    std::fill(image.aovs[0].data.begin(), image.aovs[0].data.end(), 4.0f);
+    set(0, {2});
+    EXPECT_EQ(shown(0).pixel(3, 2)[0], 1);
+    EXPECT_EQ(shown(0).pixel(0, 0)[0], 0);
+    set(1, {1, 0, -1});
+    EXPECT_EQ(shown(1).pixel(3, 2)[0], 1);
+    EXPECT_EQ(shown(1).pixel(3, 2)[1], 0.5f);
+    EXPECT_EQ(shown(1).pixel(3, 2)[2], 0);
+    EXPECT_EQ(shown(1).pixel(0, 0)[1], 0) << "nothing is black";
+    for (const std::size_t aov : {2, 3}) {
+        set(aov, std::vector<float>(8, 0.5f));
+        EXPECT_NEAR(shown(aov).pixel(3, 2)[1], 0.735f, 0.002f) << "sRGB of 0.5";
+    }
+    set(4, {6.07e-17f, 0.5f});
+    const float *const half = shown(4).pixel(3, 2);
+    EXPECT_GT(half[0] + half[1] + half[2], 0.3f);
+    EXPECT_LT(std::max({half[0], half[1], half[2]}), 0.51f);
+    set(5, {0.32f, -0.01f});
+    EXPECT_NEAR(shown(5).pixel(3, 2)[0], 0.2f, 1e-5);
+    EXPECT_NEAR(shown(5).pixel(3, 2)[1], 0.9f, 1e-5);
+    EXPECT_EQ(problem_of([&] { aov_picture(image, 6, d65); }).where, "aov");
 }
 
 TEST(Lamps, OfGroups) {

@@ -60,6 +60,8 @@ TEST(Program, RefusesNumbersThatAreNotFiniteOrNotWhole) {
              {"render", "a.toml", "-o", exr, "--crop", "0,0,1"},
              {"tryon", "-o", exr, "--azimuth", "NaN"},
              {"tryon", "-o", exr, "--exposure", "0x1"},
+             {"tryon", "-o", exr, "--exposure", "21"},
+             {"tryon", "-o", exr, "--exposure", "meter"},
              {"tryon", "-o", exr, "--error", "0"},
              {"garment", "subdivide", "a.obj", "-o", "b.obj", "--tolerance", "1e999"},
              {"lab", "pulse", "--simulate", "--width-ms", "nan"}}) {
@@ -118,7 +120,7 @@ TEST(Program, TriesTheSampleDressOn) {
     for (const char *dye : {"white", "crimson"}) {
         const SpectralImage image = read_spectral_exr(out / (std::string(dye) + ".exr"));
         EXPECT_EQ(image.groups, (std::vector<std::string>{"key", "fill"}));
-        EXPECT_EQ(image.aov_names, std::vector<std::string>{"coverage"});
+        EXPECT_EQ(image.aov_names, std::vector<std::string>{"garment"});
         for (const char *lamp : {"-D65.png", "-HP4.png", "-A.png"})
             expect_picture(out / (std::string(dye) + lamp), 40, 50);
     }
@@ -237,10 +239,14 @@ TEST(Program, RelightsAndCompares) {
     EXPECT_EQ(run(scratch, {"relight", exr, "--lamp", "rim=A", "-o", png}).status, 1);
     EXPECT_EQ(run(scratch, {"relight", png, "--lamp", "A", "-o", png + ".png"}).status, 1);
 
+    const Outcome metered =
+        run(scratch, {"relight", exr, "--lamp", "D65", "-o", png, "--exposure", "metered"});
+    EXPECT_EQ(metered.status, 0) << metered.err;
+
     const std::string sheet = (scratch / "sheet.png").string(),
                       report = (scratch / "report.json").string();
-    const Outcome compared =
-        run(scratch, {"compare", exr, "--lamps", "D65,A,HP4", "-o", sheet, "--report", report});
+    const Outcome compared = run(scratch, {"compare", exr, "--lamps", "D65,A,HP4", "-o", sheet,
+                                           "--report", report, "--exposure", "metered"});
     ASSERT_EQ(compared.status, 0) << compared.err;
     EXPECT_NE(compared.out.find("CIEDE2000"), std::string::npos);
     const json numbers = json::parse(read_file(report));

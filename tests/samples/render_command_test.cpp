@@ -76,6 +76,39 @@ TEST(RenderCommand, KeepsTablesOnDisk) {
     unsetenv("XDG_CACHE_HOME");
 }
 
+TEST(RenderCommand, LeavesAllButGarmentAndBodyOut) {
+    const Scratch scratch;
+    const std::string scene_file =
+        write_scene(scratch, "[backdrop]\n[output]\nlamps = [\"A\"]\nexposure = \"metered\"\n");
+    const fs::path exr = scratch / "a.exr", sheet = scratch / "aovs.png";
+    const Outcome done = run(scratch, {"render", scene_file, "-o", exr.string(), "--alpha", "--aov",
+                                       "depth,CryptoObject", "--crop", "2,3,16,18"});
+    ASSERT_EQ(done.status, 0) << done.err;
+    const SpectralImage image = read_spectral_exr(exr);
+    ASSERT_TRUE(image.alpha);
+    EXPECT_EQ(image.data_window, (std::array{2, 3, 16, 18}));
+    EXPECT_EQ(image.aov_names, (std::vector<std::string>{"depth", "CryptoObject", "garment"}));
+    EXPECT_EQ(*image.alpha->pixel(3, 4), 0);
+    EXPECT_EQ(*image.alpha->pixel(8, 10), 1);
+    EXPECT_EQ(image.pixel(0, 3, 4)[0] + image.pixel(1, 3, 4)[0], 0);
+    expect_picture(scratch / "a-A.png", 16, 20);
+    EXPECT_EQ(read_image(scratch / "a-A.png").channels.size(), 4u);
+
+    const Outcome drawn =
+        run(scratch, {"aovs", exr.string(), "-o", sheet.string(), "--columns", "2"});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(drawn.out, sheet.string() + "\n");
+    EXPECT_GT(read_image(sheet).height, 2 * 20);
+    ASSERT_EQ(run(scratch, {"render", scene_file, "-o", exr.string()}).status, 0);
+    EXPECT_EQ(run(scratch, {"aovs", exr.string(), "-o", sheet.string()}).status, 0)
+        << "the metered exposure needs the AOV of the garment";
+    const std::string plain = write_scene(scratch);
+    ASSERT_EQ(run(scratch, {"render", plain, "-o", exr.string()}).status, 0);
+    const Outcome none = run(scratch, {"aovs", exr.string(), "-o", sheet.string()});
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("no AOVs"), std::string::npos) << none.err;
+}
+
 TEST(RenderCommand, RendersFramesAndGoesOnWithThem) {
     const Scratch scratch;
     const std::string scene_file = write_scene(scratch, "[output]\nlamps = [\"A\"]\n");

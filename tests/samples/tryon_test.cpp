@@ -10,6 +10,7 @@
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/exposure.h"
 #include "tsuya/scene/studio.h"
 #include "tsuya/sdk/error.h"
 
@@ -89,17 +90,71 @@ TEST(TryOn, CoverageIsTheGarments) {
     const Scratch scratch;
     const TryOn job = small_job(scratch.folder());
     const RenderResult result = render_try_on(make_try_on_scene(job).scene, job.render);
-    ASSERT_EQ(result.image.aov_names, std::vector<std::string>{"coverage"});
+    ASSERT_EQ(result.image.aov_names, std::vector<std::string>{"garment"});
     const Image &coverage = result.image.aovs[0];
     std::size_t covered = 0;
     for (const float v : coverage.data) {
-        EXPECT_TRUE(v == 0 || v == 1) << v;
+        EXPECT_TRUE(v >= 0 && v <= 1) << v;
         covered += v == 1 ? 1 : 0;
     }
     EXPECT_GT(covered, 16u * 20u / 20u);
     EXPECT_LT(covered, 16u * 20u / 2u);
     EXPECT_EQ(*coverage.pixel(0, 0), 0);  // the wall
     EXPECT_EQ(*coverage.pixel(8, 14), 1); // the skirt
+}
+
+TEST(TryOn, WithoutABackdropPicturesHaveAlpha) {
+    const Scratch scratch;
+    TryOn job = small_job(scratch.folder());
+    job.dyes = {"white"};
+    job.backdrop = false;
+    EXPECT_EQ(make_try_on_scene(job).scene.objects.size(), 2u); // garment and body
+    run(job);
+    const SpectralImage image = read_spectral_exr(scratch / "white.exr");
+    ASSERT_TRUE(image.alpha);
+    EXPECT_EQ(*image.alpha->pixel(0, 0), 0);
+    EXPECT_NEAR(*image.alpha->pixel(8, 14), 1, 1e-5);
+    EXPECT_EQ(image.pixel(1, 0, 0)[3], 0) << "the fill light is not seen";
+    EXPECT_EQ(read_image(scratch / "white-D65.png").channels.size(), 4u);
+}
+
+TEST(TryOn, OneExposureIsMeteredForAllDyesAndLamps) {
+    const Scratch scratch;
+    TryOn job = small_job(scratch.folder());
+    job.dyes = {"black", "white"};
+    job.lamps = {"D65", "A"};
+    job.metered = true;
+    job.look.view = "Plain";
+    const TryOnResult result = run(job);
+    EXPECT_EQ(result.files.size(), 2u + 4u + 1u);
+    DisplayOptions look = job.look;
+    look.exposure_stops = result.exposure_stops;
+    ExposureMeter white(job.look);
+    for (const char *dye : {"black", "white"}) {
+        const SpectralImage image = read_spectral_exr(scratch / (std::string(dye) + ".exr"));
+        for (const NamedLamp &lamp : parse_lamps(job.lamps)) {
+            const Image picture = picture_under(image, {&lamp, 1}, look);
+            const Image file = read_image(scratch / (std::string(dye) + "-" + lamp.name + ".png"));
+            EXPECT_NEAR(file.pixel(8, 14)[1], picture.pixel(8, 14)[1], 0.003f);
+            if (dye == std::string("white"))
+                white.add(image, {&lamp, 1});
+        }
+    }
+    EXPECT_EQ(white.stops(), result.exposure_stops);
+    EXPECT_NE(result.exposure_stops, 0);
+}
+
+TEST(TryOn, LooksThroughALensOrByParallelRays) {
+    TryOn job = small_job({});
+    job.lens = Lens{.f_number = 2};
+    const Camera through = make_try_on_scene(job).scene.camera;
+    EXPECT_EQ(through.lens->f_number, 2);
+    EXPECT_NEAR(focus_distance(through), glm::distance(through.eye, through.target), 1e-12);
+    job.lens.reset();
+    job.orthographic = true;
+    const Camera parallel = make_try_on_scene(job).scene.camera;
+    EXPECT_GT(*parallel.orthographic_height, 1);
+    EXPECT_FALSE(parallel.lens);
 }
 
 /// Departure of the garment's coverage from that of another picture, summed over the pixels.
@@ -128,7 +183,7 @@ TEST(TryOn, APixelToleranceKeepsTheSilhouette) {
         RenderResult result = render(scene, {.stop = {.samples_per_pixel = 32},
                                              .channels = 8,
                                              .max_bounces = 0,
-                                             .aovs = {"object"}});
+                                             .aovs = {"garment"}});
         return std::pair(result.image.aovs.at(0), scene.surfaces[0].triangle.size());
     };
     const auto [truth, most] = coverage(2, {});

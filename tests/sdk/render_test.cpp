@@ -256,15 +256,4 @@ TEST(Promises, GroupsAddUp) {
                         together.pixel(0, x, y)[2], 1e-5f);
 }
 
-TEST(Promises, Aovs) {
-    RenderSettings settings = quick(4);
-    settings.aovs = aov_names();
-    const SpectralImage image = render(folded_satin(32, 32), settings).image;
-    ASSERT_EQ(image.aovs.size(), aov_names().size());
-    EXPECT_EQ(image.aovs[0].pixel(16, 16)[0], 1.0f);
-    EXPECT_NEAR(image.aovs[1].pixel(16, 16)[0], 4.5, 0.3);
-    EXPECT_NEAR(image.aovs[3].pixel(16, 16)[1], 1.0f, 1e-3);
-    EXPECT_EQ(image.aovs[4].pixel(16, 16)[0], 1.0f);
-}
-
 } // namespace

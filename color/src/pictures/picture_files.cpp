@@ -77,6 +77,16 @@ OIIO::ImageSpec spec_of(const OutputPicture &picture) {
                          picture.samples == SampleType::half ? OIIO::TypeDesc::HALF
                                                              : OIIO::TypeDesc::FLOAT);
     spec.channelnames = picture.channels;
+    if (picture.samples == SampleType::half && picture.exact_from < picture.channels.size()) {
+        spec.channelformats.assign(picture.channels.size(), OIIO::TypeDesc::FLOAT);
+        std::fill_n(spec.channelformats.begin(), picture.exact_from, OIIO::TypeDesc::HALF);
+    }
+    if (picture.place) {
+        spec.x = picture.place->x;
+        spec.y = picture.place->y;
+        spec.full_width = picture.place->width;
+        spec.full_height = picture.place->height;
+    }
     spec.attribute("compression", "zip");
     for (const auto &[key, value] : picture.attributes)
         spec.attribute(key, value);
@@ -98,7 +108,8 @@ void write_exr_picture(const std::filesystem::path &path, const OutputPicture &p
             for (int y = begin; y < end; ++y)
                 picture.fill_row(first + y, rows.data() + static_cast<std::size_t>(y) * row_size);
         });
-        encoder.write(first, first + count, OIIO::TypeDesc::FLOAT, rows.data());
+        const int top = (picture.place ? picture.place->y : 0) + first;
+        encoder.write(top, top + count, OIIO::TypeDesc::FLOAT, rows.data());
     }
     encoder.finish();
 }
@@ -110,6 +121,7 @@ InputPicture read_picture(const std::filesystem::path &path) {
     picture.format = in->format_name();
     need_memory_for(path, spec, spec.height, sizeof(float));
     picture.image = Image::make(spec.width, spec.height, spec.channelnames);
+    picture.place = {spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width, spec.full_height};
     for (const OIIO::ParamValue &value : spec.extra_attribs)
         if (value.type() == OIIO::TypeDesc::STRING)
             picture.attributes[value.name().string()] = value.get_string();
@@ -123,6 +135,7 @@ void write_png_samples(const std::filesystem::path &path, const Image &shape, in
     const OIIO::TypeDesc type = bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(shape.width, shape.height, static_cast<int>(shape.channels.size()), type);
     spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
     Encoder encoder(path, "png");
     encoder.open(spec);
     encoder.write(0, shape.height, type, samples);

@@ -35,12 +35,15 @@ NamedLamp with_file_name(NamedLamp lamp) {
     return lamp;
 }
 
+bool is_own(std::span<const NamedLamp> lamps) {
+    return lamps.size() == 1 && lamps[0].name == kOwnLamps;
+}
+
 } // namespace
 
-Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
-                    const DisplayOptions &look) {
-    if (lamps.size() == 1 && lamps[0].name == kOwnLamps)
-        return picture_under(transport, own_lamps(transport), look);
+Image xyz_under(const SpectralImage &transport, std::span<const NamedLamp> lamps) {
+    if (is_own(lamps))
+        return xyz_under(transport, own_lamps(transport));
     std::vector<Spectrum> spectra;
     RelightOptions options;
     for (const NamedLamp &lamp : lamps) {
@@ -49,8 +52,26 @@ Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> l
     }
     if (lamps.size() == 1)
         options.group_scale.assign(transport.groups.size(), lamps[0].factor);
-    const Image xyz = relight(transport, spectra, options);
-    return display(xyz, white_of(spectra[0]), look);
+    return relight(transport, spectra, options);
+}
+
+Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
+                    const DisplayOptions &look) {
+    if (is_own(lamps))
+        return picture_under(transport, own_lamps(transport), look);
+    Image xyz = xyz_under(transport, lamps);
+    const glm::dvec3 white = white_of(lamps[0].spectrum);
+    if (!transport.alpha)
+        return display(xyz, white, look);
+    divide_by_alpha(xyz, *transport.alpha);
+    const Image colours = display(xyz, white, look);
+    Image picture = Image::make(xyz.width, xyz.height, {"R", "G", "B", "A"});
+    for (int y = 0; y < xyz.height; ++y)
+        for (int x = 0; x < xyz.width; ++x) {
+            std::copy_n(colours.pixel(x, y), 3, picture.pixel(x, y));
+            picture.pixel(x, y)[3] = *transport.alpha->pixel(x, y);
+        }
+    return picture;
 }
 
 std::string file_stem_of(const std::string &spec) {

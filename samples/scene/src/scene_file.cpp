@@ -23,6 +23,9 @@ void add_object(Scene &scene, const std::string &name, Surface surface, Dressing
     scene.objects.push_back(std::move(dressing).object(name, {index}));
 }
 
+/// Pictures with alpha have none behind what they show.
+bool shows_backdrop(const SceneFile &file) { return file.backdrop && !file.output.alpha; }
+
 /// Where the file has the parts of its scene: `a.scene.toml:9:1: lights.key` for `lights[0]`.
 std::map<std::string, std::string> places_of(const SceneFile &file) {
     std::map<std::string, std::string> places;
@@ -36,7 +39,7 @@ std::map<std::string, std::string> places_of(const SceneFile &file) {
         for (const MeshEntry &entry : *entries)
             if (entry.visible)
                 object(entry.where, kind + entry.name);
-    if (file.backdrop)
+    if (shows_backdrop(file))
         object(file.backdrop->where, "backdrop");
     for (std::size_t i = 0; i < file.light_places.size(); ++i)
         places["lights[" + std::to_string(i) + "]"] =
@@ -199,7 +202,7 @@ struct SceneBuilder {
     }
 
     void add_backdrop() {
-        if (!file.backdrop)
+        if (!shows_backdrop(file))
             return;
         Scene &scene = built.scene;
         add_object(scene, "backdrop", make_cyclorama(file.backdrop->shape),
@@ -254,8 +257,10 @@ BuiltScene build_scene(const SceneFile &file, const Progress &progress, std::siz
     builder.add_fabrics();
     for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
         for (const MeshEntry &entry : *entries)
-            if (entry.visible)
+            if (entry.visible) {
                 builder.add_mesh(entry);
+                builder.built.scene.objects.back().garment = entries == &file.garments;
+            }
     builder.add_backdrop();
     builder.add_camera_and_lights();
     builder.check_and_refine();

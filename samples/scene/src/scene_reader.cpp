@@ -119,7 +119,15 @@ void SceneReader::read_output() {
         note(*section, "view", [&] { view_description(*view); });
         look.view = *view;
     }
-    look.exposure_stops = section->number("exposure", -20, 20).value_or(0);
+    file_.output.alpha = section->flag("alpha").value_or(false);
+    if (!section->is_text("exposure")) {
+        look.exposure_stops = section->number("exposure", -20, 20).value_or(0);
+    } else {
+        file_.output.metered = section->required_text("exposure") == "metered";
+        if (!file_.output.metered)
+            section->problem("exposure", "'exposure' is another text",
+                             "expected stops from -20 to 20, or \"metered\"");
+    }
 }
 
 } // namespace tsuya::scene

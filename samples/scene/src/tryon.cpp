@@ -12,9 +12,9 @@
 #include "tryon_cloths.h"
 #include "tryon_files.h"
 #include "tryon_page.h"
+#include "tryon_pictures.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
-#include "tsuya/color/sheet.h"
 #include "tsuya/garment/animation.h"
 #include "tsuya/garment/garment.h"
 #include "tsuya/scene/data_folder.h"
@@ -72,38 +72,11 @@ void add_studio(const TryOn &job, const std::vector<glm::dvec3> &points, Scene &
                                          .vertical_angle = kAngleOfView,
                                          .margin = 0.07,
                                          .width = job.width,
-                                         .height = job.height});
+                                         .height = job.height,
+                                         .orthographic = job.orthographic,
+                                         .lens = job.lens});
     scene.light_groups.clear();
-    add_studio_to(scene, own_lamps, job.studio, points, job.azimuth_deg * kDegree, true);
-}
-
-/// Turns the AOV `object`, where the garment is 1, into the garment's coverage: 1 where every
-/// sample met it, else 0.
-void keep_coverage(SpectralImage &image) {
-    for (std::size_t i = 0; i < image.aovs.size(); ++i)
-        if (image.aov_names[i] == "object") {
-            image.aov_names[i] = "coverage";
-            image.aovs[i].channels = {"A"};
-            for (float &v : image.aovs[i].data)
-                v = v == 1.0f ? 1.0f : 0.0f;
-        }
-}
-
-/// \param number of the frame, `-0000`, or empty
-void write_pictures(const SpectralImage &image, const std::string &name, const std::string &number,
-                    const std::vector<NamedLamp> &lamps, const TryOn &job, Sheet &sheet,
-                    TryOnResult &result) {
-    result.files.push_back(job.output / transport_name(name, number));
-    write_spectral_exr(result.files.back(), image);
-    for (const NamedLamp &lamp : lamps) {
-        Image picture = picture_under(image, {&lamp, 1}, job.look);
-        result.files.push_back(job.output / picture_name(name, lamp.name, number));
-        write_png(result.files.back(), picture);
-        if (number.empty())
-            sheet.pictures.push_back({std::move(picture), lamp.caption});
-    }
-    if (number.empty())
-        sheet.row_labels.push_back(name);
+    add_studio_to(scene, own_lamps, job.studio, points, job.azimuth_deg * kDegree, job.backdrop);
 }
 
 /// A try-on with what further frames of it need.
@@ -187,6 +160,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     add_file_opacities(stage.meshes.file(0), stage.meshes.options(0),
                        stage.meshes.report(0).metres_per_uv, dressing, scene);
     scene.objects.push_back(std::move(dressing).object("garment", {0}));
+    scene.objects.back().garment = true;
     if (!job.body.empty())
         add_object(scene, "body",
                    stage.meshes.add({.file = garment::read_mesh(job.body, progress),
@@ -228,7 +202,8 @@ bool leave_dye_open(const TryOn &job, Scene &scene) {
 }
 
 RenderSettings settings_of(RenderSettings settings) {
-    settings.aovs = {"object"};
+    if (std::find(settings.aovs.begin(), settings.aovs.end(), "garment") == settings.aovs.end())
+        settings.aovs.emplace_back("garment");
     // One sample does not tell its noise
     settings.denoise = settings.denoise && settings.stop.samples_per_pixel > 1;
     return settings;
@@ -293,9 +268,7 @@ TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress) {
 
 RenderResult render_try_on(const Scene &scene, const RenderSettings &settings,
                            const Progress &progress, PreparedScene *prepared) {
-    RenderResult rendered = render(scene, settings_of(settings), progress, prepared);
-    keep_coverage(rendered.image);
-    return rendered;
+    return render(scene, settings_of(settings), progress, prepared);
 }
 
 TryOnResult run(const TryOn &job, const Progress &progress) {
@@ -314,8 +287,10 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
 
     TryOnResult result{.report = std::move(stage.shown.report)};
     add_spectrum_warnings(dyes, lamps, result);
-    Sheet sheet{.columns = static_cast<int>(lamps.size())};
+    TryOnPictures pictures(job, lamps, result);
     std::vector<PageDress> dresses;
+    RenderSettings settings = settings_of(job.render);
+    settings.alpha = settings.alpha || !job.backdrop;
     PreparedScene prepared(job.cache);
     const bool open = dyes.front().spectrum && leave_dye_open(job, scene);
     const std::size_t at_once = open ? dyes.size() : 1; // dyes of one render
@@ -333,13 +308,12 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
         if (dyes[first].spectrum)
             scene.fabrics[0].colours.dye_all(*dyes[first].spectrum);
         const std::string number = frames > 1 ? frame_suffix(frame) : "";
-        const std::string key =
-            frames > 1 || job.resume ? render_key(scene, settings_of(job.render)) : "";
+        const std::string key = frames > 1 || job.resume ? render_key(scene, settings) : "";
         SpectralImage image;
         if (job.resume)
             image = finished(job.output / transport_name(dyes[first].name, number), key);
         if (image.transport.empty()) {
-            RenderResult rendered = render_try_on(scene, job.render, part, &prepared);
+            RenderResult rendered = render_try_on(scene, settings, part, &prepared);
             result.stats.push_back(rendered.stats);
             result.interrupted = rendered.stats.interrupted;
             add_warnings(rendered, result);
@@ -353,12 +327,12 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
         for (std::size_t d = first; d < first + at_once; ++d) {
             if (open)
                 set_dye(*image.depths, scene.fabrics[0].name, *dyes[d].spectrum);
-            write_pictures(image, dyes[d].name, number, lamps, job, sheet, result);
+            pictures.add(image, dyes[d].name, number);
         }
     }
+    pictures.finish();
     if (!result.interrupted && frames == 1) {
-        result.files.push_back(job.output / kSheet);
-        write_png(result.files.back(), draw_sheet(sheet));
+        pictures.write_sheet();
         if (job.page)
             write_try_on_page(dresses, lamps, job, result);
     }

@@ -37,8 +37,8 @@ class TileFilter {
     TileFilter(const Film &film, const GuidePlanes &guide, const Tile &tile)
         : film_(film), guide_(guide), tile_(tile), width_(tile.x1 - tile.x0),
           height_(tile.y1 - tile.y0),
-          values_(film.groups * static_cast<std::size_t>(film.channels)), even_(take(0)),
-          odd_(take(1)) {}
+          transport_(film.groups * static_cast<std::size_t>(film.channels)),
+          values_(transport_ + (film.covered.empty() ? 0 : 1)), even_(take(0)), odd_(take(1)) {}
 
     // Sets the pixels of the tile.
     void run(SpectralImage &image) {
@@ -73,7 +73,7 @@ class TileFilter {
     const GuidePlanes &guide_;
     Tile tile_;
     int width_, height_;
-    std::size_t values_;
+    std::size_t transport_, values_; // of a pixel, with alpha
     std::vector<float> even_, odd_;
     std::vector<float> sums_{}, weights_{}; // [half][y][x], of the sums [group][k]
     std::array<std::array<Row, kMostPixels>, 2> pixel_distance_{}; // [half][y][x], with patches
@@ -94,8 +94,10 @@ std::vector<float> TileFilter::take(int half) const {
             const float *const of_odd = film_.odd_sum.data() + (all - film_.sum.data());
             const float scale =
                 guide_.scale(half, x, y) / static_cast<float>(half == 0 ? n - odd : odd);
-            for (std::size_t i = 0; i < values_; ++i)
+            for (std::size_t i = 0; i < transport_; ++i)
                 to[i] = scale * (half == 0 ? all[i] - of_odd[i] : of_odd[i]);
+            if (!film_.covered.empty())
+                to[transport_] = film_.covered[film_.at(x, y)] / static_cast<float>(n);
         }
     return means;
 }
@@ -218,6 +220,8 @@ void TileFilter::write(SpectralImage &image) const {
             for (std::size_t k = 0; k < channels; ++k)
                 to[k] = of_even * *even++ + of_odd * *odd++;
         }
+        if (image.alpha)
+            *image.alpha->pixel(x, y) = of_even * *even + of_odd * *odd;
     }
 }
 

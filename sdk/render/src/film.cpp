@@ -8,6 +8,7 @@
 #include <string>
 
 #include "denoise_guide.h"
+#include "film_aovs.h"
 
 namespace tsuya {
 namespace {
@@ -20,16 +21,11 @@ std::uint64_t pixels_of(const Tile &t) {
 
 } // namespace
 
-std::vector<std::string> channels_of(const std::string &aov) {
-    if (aov == "normal" || aov == "warp")
-        return {"X", "Y", "Z"};
-    return {aov == "depth" ? "Z" : "A"};
-}
-
 std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &settings) {
     std::uint64_t aovs = 0;
-    for (const std::string &aov : settings.aovs)
-        aovs += channels_of(aov).size();
+    for (const Aov aov : aovs_of(settings))
+        aovs += channels_of(aov, scene, settings.channels).size();
+    aovs += settings.alpha ? 1 : 0;
     const std::uint64_t transport =
         scene.light_groups.size() * static_cast<std::uint64_t>(settings.channels);
     // In the film, which has the difference too, and in the picture that is made of it
@@ -43,7 +39,7 @@ std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &setti
 Film::Film(const Scene &scene, const RenderSettings &settings)
     : width(scene.camera.width), height(scene.camera.height), channels(settings.channels),
       groups(scene.light_groups.size()),
-      all_split(settings.stop.relative_error || settings.denoise) {
+      all_split(settings.stop.relative_error || settings.denoise), aovs(aovs_of(settings)) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     sum.resize(pixels * groups * static_cast<std::size_t>(channels));
     difference.resize(pixels);
@@ -51,8 +47,10 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
         odd_sum.resize(sum.size());
         features.resize(pixels * kFeatures);
     }
-    for (const std::string &aov : settings.aovs)
-        aov_sums.push_back(Image::make(width, height, channels_of(aov)));
+    for (const Aov aov : aovs)
+        aov_sums.push_back(Image::make(width, height, channels_of(aov, scene, channels)));
+    if (settings.alpha)
+        covered.resize(pixels);
     const auto [x0, y0, x1, y1] = settings.crop.value_or(std::array<int, 4>{0, 0, width, height});
     for (int y = y0; y < y1; y += kTileSize)
         for (int x = x0; x < x1; x += kTileSize)
@@ -66,21 +64,29 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
 
 Film::TileError Film::tile_error(std::size_t t) const {
     TileError result;
-    const int count_odd = done[t] / 2;
-    const double n = done[t], odd = count_odd, even = n - odd;
-    const std::size_t count = groups * static_cast<std::size_t>(channels);
     for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
         for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {
             if (!is_split(x, y))
                 continue;
-            const float *const p = sum.data() + at(x, y) * count;
-            const double mean = std::accumulate(p, p + count, 0.0) / static_cast<double>(count) / n;
-            const double less = difference[at(x, y)];
-            result.errors += 0.25 * std::abs((n * mean + less) / even - (n * mean - less) / odd);
+            const double mean = pixel_mean(x, y, done[t]);
+            result.errors += pixel_error(x, y, done[t], mean);
             result.values += mean;
             ++result.pixels;
         }
     return result;
+}
+
+double Film::pixel_mean(int x, int y, std::int32_t samples) const {
+    const std::size_t count = groups * static_cast<std::size_t>(channels);
+    const float *const p = pixel(x, y);
+    return std::accumulate(p, p + count, 0.0) / static_cast<double>(count) / samples;
+}
+
+double Film::pixel_error(int x, int y, std::int32_t samples, double mean) const {
+    const std::int32_t count_odd = samples / 2;
+    const double n = samples, odd = count_odd, even = n - odd;
+    const double less = difference[at(x, y)];
+    return 0.25 * std::abs((n * mean + less) / even - (n * mean - less) / odd);
 }
 
 double Film::relative_error(std::size_t t) const {
@@ -169,8 +175,9 @@ std::int32_t Film::samples_at(int x, int y) const {
 SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) const {
     SpectralImage image =
         SpectralImage::make(width, height, {.count = channels}, scene.light_groups);
-    image.aovs = aov_sums;
-    image.aov_names = settings.aovs;
+    image.data_window = settings.crop;
+    if (settings.alpha)
+        image.alpha = Image::make(width, height, {"A"});
     for (std::size_t t = 0; t < tiles.size(); ++t) {
         const float scale = done[t] > 0 ? 1.0f / static_cast<float>(done[t]) : 0.0f;
         for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
@@ -181,11 +188,11 @@ SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) 
                     for (int k = 0; k < channels; ++k)
                         to[k] = *from++ * scale;
                 }
-                for (Image &aov : image.aovs)
-                    for (std::size_t c = 0; c < aov.channels.size(); ++c)
-                        aov.pixel(x, y)[c] *= scale;
+                if (image.alpha)
+                    *image.alpha->pixel(x, y) = covered[at(x, y)] * scale;
             }
     }
+    develop_aovs(*this, scene, settings, image);
     return image;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "aov.h"
 #include "tsuya/sdk/detail/checkpoint.h"
 #include "tsuya/sdk/dye_depths.h"
 #include "tsuya/sdk/render.h"
@@ -23,9 +24,6 @@ struct Tile {
     int x0, y0, x1, y1;
 };
 
-// Channel names of an AOV.
-std::vector<std::string> channels_of(const std::string &aov);
-
 // Sums over samples. Each tile knows how many samples its pixels have.
 struct Film {
     Film(const Scene &scene, const RenderSettings &settings);
@@ -40,7 +38,9 @@ struct Film {
     // Whether every pixel's samples are split into two independent sequences, so that their
     // difference tells the error. Else one pixel of four is: one sequence has the smaller error.
     bool all_split;
-    std::vector<Image> aov_sums{};
+    std::vector<Aov> aovs;
+    std::vector<Image> aov_sums{}; // of aovs
+    std::vector<float> covered{};  // [y][x], samples that meet an object, where alpha is wanted
     // For the denoiser, empty where there is none: of the samples of odd index, [y][x][group][k],
     // and of what the camera sees, [y][x][kFeatures].
     std::vector<float> odd_sum{}, features{};
@@ -86,6 +86,11 @@ struct Film {
     SpectralImage develop(const Scene &scene, const RenderSettings &settings) const;
     // Of a pixel in a tile.
     std::int32_t samples_at(int x, int y) const;
+    // Of a pixel, over groups and channels too.
+    double pixel_mean(int x, int y, std::int32_t samples) const;
+    // Half the difference of the means of the two halves of a split pixel's samples, of which there
+    // are two or more. \param mean of both
+    double pixel_error(int x, int y, std::int32_t samples, double mean) const;
     // See all_split.
     bool is_split(int x, int y) const { return all_split || (x % 2 == 0 && y % 2 == 0); }
     std::size_t at(int x, int y) const {

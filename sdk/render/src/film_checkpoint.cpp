@@ -7,7 +7,7 @@
 namespace tsuya {
 namespace {
 
-constexpr const char *kKind = "render 7";
+constexpr const char *kKind = "render 8";
 
 // What is kept of a film, in order: for the writer (a constant film) and the reader.
 template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
@@ -24,6 +24,7 @@ template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
     file.array(std::span(film.features));
     file.array(std::span(film.change));
     file.array(std::span(film.told));
+    file.array(std::span(film.covered));
     for (auto &aov : film.aov_sums)
         file.array(std::span(aov.data));
 }

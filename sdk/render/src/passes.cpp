@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "film_aovs.h"
 #include "path_tracer.h"
 #include "tsuya/sdk/detail/flush_denormals.h"
 #include "tsuya/sdk/error.h"
@@ -25,26 +26,6 @@ constexpr int kLeastPasses = 2;
 // Largest share of samples that are not finite: those that remain are too biased then.
 constexpr double kMostNotFinite = 0.01;
 
-void add_first_hit(Film &film, const RenderSettings &settings, int x, int y,
-                   const FirstHit &first) {
-    if (!first.hit)
-        return;
-    for (std::size_t i = 0; i < settings.aovs.size(); ++i) {
-        float *const to = film.aov_sums[i].pixel(x, y);
-        const std::string &name = settings.aovs[i];
-        const glm::vec3 direction = name == "warp" ? first.warp : first.normal;
-        if (name == "coverage")
-            to[0] += 1;
-        else if (name == "depth")
-            to[0] += first.distance;
-        else if (name == "object")
-            to[0] += static_cast<float>(first.object + 1);
-        else
-            for (int c = 0; c < 3; ++c)
-                to[c] += direction[c];
-    }
-}
-
 void add_features(Film &film, int x, int y, const FirstHit &first) {
     if (!first.hit)
         return;
@@ -52,7 +33,7 @@ void add_features(Film &film, int x, int y, const FirstHit &first) {
     for (const glm::vec3 &direction : {first.normal, first.warp})
         for (int c = 0; c < 3; ++c)
             *to++ += direction[c];
-    for (const float band : first.albedo)
+    for (const float band : first.dye)
         *to++ += band;
     *to++ += first.distance;
     *to += static_cast<float>(first.object + 1);
@@ -64,7 +45,7 @@ template <int K> class Passes {
     Passes(const TracedScene &prepared, const RenderSettings &settings, Film &film,
            FilmKeeper &keeper, const Progress &progress)
         : prepared_(prepared), settings_(settings), film_(film), keeper_(keeper),
-          progress_(progress) {}
+          progress_(progress), aovs_(prepared.scene, film) {}
 
     void run() {
         const Clock::time_point start = Clock::now();
@@ -156,27 +137,37 @@ template <int K> class Passes {
         std::vector<Channels<K>> radiance(samples * film_.groups);
         std::vector<Sampler> samplers;
         std::vector<FirstHit> first;
+        const std::size_t part_count = aovs_.want_light_parts() ? radiance.size() : 0;
+        std::vector<Channels<K>> direct(part_count), surface(part_count);
+        LightParts<K> parts;
+        if (part_count > 0)
+            parts = {direct.data(), surface.data()};
         std::uint64_t not_finite = 0;
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x) {
                 samplers.clear();
                 for (int s = from; s < to; ++s)
                     samplers.push_back(sampler_of(x, y, static_cast<std::uint32_t>(s)));
-                const bool wanted = settings_.denoise || !settings_.aovs.empty();
+                const bool wanted = settings_.denoise || aovs_.want_first_hit();
                 first.assign(wanted ? samples : 0, FirstHit{});
+                std::fill(direct.begin(), direct.end(), Channels<K>{});
+                std::fill(surface.begin(), surface.end(), Channels<K>{});
                 tracer.trace(x, y, samplers, radiance.data(), film_.groups,
-                             first.empty() ? nullptr : first.data());
+                             first.empty() ? nullptr : first.data(), parts);
                 for (const FirstHit &hit : first) {
-                    add_first_hit(film_, settings_, x, y, hit);
+                    aovs_.add(x, y, hit);
                     if (settings_.denoise)
                         add_features(film_, x, y, hit);
                 }
                 for (std::size_t i = 0; i < samples; ++i) {
                     const bool even = (static_cast<std::size_t>(from) + i) % 2 == 0;
-                    not_finite += add(x, y, even ? 1.0f : -1.0f,
-                                      std::span(radiance).subspan(i * film_.groups, film_.groups))
-                                      ? 0
-                                      : 1;
+                    const std::size_t begin = i * film_.groups;
+                    const auto sample =
+                        std::span<const Channels<K>>(radiance).subspan(begin, film_.groups);
+                    if (!add(x, y, even ? 1.0f : -1.0f, sample))
+                        ++not_finite;
+                    else if (part_count > 0)
+                        aovs_.add(x, y, sample, parts.direct + begin, parts.surface + begin);
                 }
             }
         rays_ += tracer.rays();
@@ -222,6 +213,7 @@ template <int K> class Passes {
     Film &film_;
     FilmKeeper &keeper_;
     const Progress &progress_;
+    FilmAovs aovs_;
     std::atomic<std::uint64_t> rays_{0}, not_finite_{0};
     double reached_ = 0; // part of the tiles that had enough before the pass
     std::mutex reporting_;

@@ -23,6 +23,7 @@
 #include <limits>
 #include <optional>
 
+#include "coloured.h"
 #include "pixel_filter.h"
 #include "vertex.h"
 
@@ -57,23 +58,6 @@ float power_weight_over_pdf(float of, float other) {
     }
     const float ratio = of / other;
     return ratio / (other * (1 + ratio * ratio));
-}
-
-// A response in its colours, times a number.
-template <int K>
-Channels<K> coloured(const Response &response, const Colours &colours, float scale) {
-    Channels<K> result;
-    for (std::size_t k = 0; k < K; ++k)
-        result.v[k] = (colours.dye[k] * response.diffuse + colours.warp[k] * response.warp) * scale;
-    if (response.weft > 0)
-        result.add(colours.weft, response.weft * scale);
-    if (response.warp_body > 0)
-        result.add(colours.warp_body, response.warp_body * scale);
-    if (response.weft_body > 0)
-        result.add(colours.weft_body, response.weft_body * scale);
-    if (response.transmitted > 0)
-        result.add(colours.transmittance, response.transmitted * scale);
-    return result;
 }
 
 } // namespace
@@ -223,6 +207,10 @@ void PathTracer<K>::sample_light(const Path &path, const Place &at, const Chosen
                              ? power_weight_over_pdf(ray->pdf * chosen.probability, w.pdf)
                              : 1 / chosen.probability;
     const Channels<K> response = coloured<K>(w.f_cos, at.colours, ray->radiance * weight);
+    const bool splits = path.vertex == 0 && split_.is_wanted();
+    Channels<K> surface;
+    if (splits)
+        surface = coloured_surface<K>(w.f_cos, at.colours, ray->radiance * weight);
     const bool shadows = scene_.lights.throws_shadows(chosen.light);
     if (shadows &&
         scene_.lights.block(shadow.origin, shadow.direction, shadow.distance, chosen.light))
@@ -230,9 +218,12 @@ void PathTracer<K>::sample_light(const Path &path, const Place &at, const Chosen
     if (path.vertex > 0 || scene_.has_holes() || !shadows || parts.count > 1) {
         const float arrives =
             shadows ? transmission(shadow.origin, shadow.direction, shadow.distance) : 1.0f;
-        for (std::size_t part = 0; part < parts.count && arrives > 0; ++part)
-            path.radiance[parts.group[part]].add(response, path.throughput,
-                                                 arrives * parts.share[part]);
+        for (std::size_t part = 0; part < parts.count && arrives > 0; ++part) {
+            Channels<K> &to = path.radiance[parts.group[part]];
+            to.add(response, path.throughput, arrives * parts.share[part]);
+            if (splits)
+                split_.add_sampled(&to, response, surface, arrives * parts.share[part]);
+        }
         if (arrives > 0 && at.plain) {
             Channels<K> plain = coloured<K>(at.plain->weigh(ray->to_light).f_cos, at.colours,
                                             ray->radiance * weight);
@@ -241,6 +232,8 @@ void PathTracer<K>::sample_light(const Path &path, const Place &at, const Chosen
         }
         return;
     }
+    if (splits)
+        shadow_surface_.push_back(surface);
     shadow.brings.add(response, path.throughput, 1);
     shadow_rays_.push_back(shadow);
 }
@@ -257,11 +250,16 @@ template <int K> void PathTracer<K>::add_shadow_rays() {
         std::array<bool, RayPacket::kMost> occluded;
         scene_.accelerator.occluded(rays, occluded);
         rays_ += rays.count;
-        for (std::size_t i = 0; i < rays.count; ++i)
-            if (!occluded[i])
-                waiting[i].to->add(waiting[i].brings, 1);
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            if (occluded[i])
+                continue;
+            waiting[i].to->add(waiting[i].brings, 1);
+            if (split_.is_wanted())
+                split_.add_sampled(waiting[i].to, waiting[i].brings, shadow_surface_[begin + i], 1);
+        }
     }
     shadow_rays_.clear();
+    shadow_surface_.clear();
 }
 
 // Of what is added to the transport.
@@ -312,8 +310,9 @@ template <int K> bool PathTracer<K>::survives(Path &path) const {
 
 template <int K>
 void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Channels<K> *radiance,
-                          std::size_t groups, FirstHit *first) {
+                          std::size_t groups, FirstHit *first, const LightParts<K> &parts) {
     std::fill_n(radiance, samplers.size() * groups, Channels<K>{});
+    split_.start(parts, radiance, groups);
     for (std::size_t begin = 0; begin < samplers.size(); begin += RayPacket::kMost) {
         // Camera rays through samples of the pixel filter
         RayPacket rays{.count = std::min(samplers.size() - begin, RayPacket::kMost)};
@@ -337,6 +336,8 @@ void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Chann
                       .tells = scene_.plan.widens && samplers[begin + i].index() % kTelling == 0};
             told_ += path.tells ? 1 : 0;
             follow(path, hits[i], first ? first + begin + i : nullptr);
+            if (split_.is_wanted())
+                split_.end(path.radiance);
         }
     }
     add_shadow_rays();
@@ -348,24 +349,22 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
         hit.distance < kInfinity && (!scene_.has_holes() || pass_holes(path, true, hit));
     const auto see = [&](const LightMet &met) {
         path.radiance[met.group].add(Channels<K>::filled(1), met.radiance);
+        if (split_.is_wanted())
+            split_.add_seen(path.radiance + met.group, Channels<K>::filled(1), met.radiance);
     };
+    const bool sees = scene_.plan.lights_seen;
     if (const auto seen =
-            scene_.lights.seen(path.origin, path.direction, hits ? hit.distance : kInfinity))
+            sees ? scene_.lights.seen(path.origin, path.direction, hits ? hit.distance : kInfinity)
+                 : std::nullopt)
         return see(*seen);
     if (!hits)
-        return scene_.lights.see_distant(path.direction, see);
+        return sees ? scene_.lights.see_distant(path.direction, see) : void();
 
     for (;; path.go_on()) {
         // Vertex at the hit
         const SurfacePoint point = scene_.point(path.direction, hit);
         if (!point.is_finite())
             return spoil(path.radiance);
-        if (path.vertex == 0 && first)
-            *first = {.hit = true,
-                      .distance = hit.distance,
-                      .normal = point.frame.normal,
-                      .warp = point.warp,
-                      .object = hit.object};
         const Vertex vertex(scene_, point, path.direction, path.wide);
         std::optional<Vertex> plain;
         if (path.tells && path.wide)
@@ -375,7 +374,7 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
             printed = scene_.printed(point, hit.distance, path.vertex == 0);
         const Colours &colours = printed ? *printed : scene_.colours[point.colours];
         if (path.vertex == 0 && first)
-            first->albedo = thirds(colours.dye.data(), K);
+            *first = first_hit_of(scene_, hit, point, colours, K);
 
         // Direct light, found by sampling the lights
         sample_lights(path, {vertex, colours, plain ? &*plain : nullptr});
@@ -387,6 +386,8 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
             return;
         const auto &[f_cos, pdf] = next->weighed;
         path.throughput.multiply(coloured<K>(f_cos, colours, 1 / pdf));
+        if (path.vertex == 0 && split_.is_wanted())
+            split_.leave(path.radiance, f_cos, colours, path.throughput, pdf);
         if (!(path.throughput.largest() > 0))
             return;
         if (plain)
@@ -404,6 +405,8 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
         float farthest = found ? hit.distance : kInfinity;
         const bool ended = scene_.lights.end_at_obstacle(path.origin, path.direction, farthest);
         add_lights_met(path, vertex, farthest, pdf);
+        if (path.vertex == 0 && split_.is_wanted())
+            split_.add_met(path.radiance);
 
         // End of the path
         if (!found || ended || is_last(path) || !survives(path))

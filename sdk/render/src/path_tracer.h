@@ -7,21 +7,14 @@
 #include <vector>
 
 #include "channels.h"
+#include "first_hit.h"
+#include "light_split.h"
 #include "sampler.h"
 #include "traced_scene.h"
 
 namespace tsuya {
 
 class Vertex;
-
-// What the camera ray hit; for AOVs.
-struct FirstHit {
-    bool hit = false;
-    float distance = 0;
-    glm::vec3 normal{}, warp{};
-    std::array<float, 3> albedo{}; // of the dye, in three bands of wavelength
-    std::uint32_t object = 0;
-};
 
 template <int K> class PathTracer {
   public:
@@ -34,8 +27,9 @@ template <int K> class PathTracer {
     // \param samplers one a sample; a packet of them is traced together
     // \param radiance for each sample `groups` values, set
     // \param first for each sample, set where the camera ray hits; may be null
+    // \param parts of the radiance, added to
     void trace(int x, int y, std::span<const Sampler> samplers, Channels<K> *radiance,
-               std::size_t groups, FirstHit *first);
+               std::size_t groups, FirstHit *first, const LightParts<K> &parts);
     // Traced so far.
     std::uint64_t rays() const { return rays_; }
     // By how much wider lobes changed the transport of all samples that tell it: the mean over
@@ -72,6 +66,8 @@ template <int K> class PathTracer {
 
     const TracedScene &scene_;
     std::vector<ShadowRay> shadow_rays_{}; // of the camera's vertices, to be traced in packets
+    LightSplit<K> split_{};
+    std::vector<Channels<K>> shadow_surface_{}; // of shadow_rays_, where the split is wanted
     std::uint64_t rays_ = 0;
     double change_ = 0;
     std::uint64_t told_ = 0;

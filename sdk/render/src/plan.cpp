@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "aov.h"
 #include "dye_channels.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/render.h"
@@ -79,7 +80,11 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
         !p.environment || scene.opacities.empty(), "what a path's last ray meets beside lights",
         p.environment ? "finding the nearest hit" : "tracing it where it points at no light");
     skip(scene.opacities.empty(), "no cloth has holes", "looking for them along every ray");
+    p.lights_seen = !settings.alpha;
     skip(settings.aovs.empty(), "no AOVs were asked for", "their memory and writing");
+    skip(!settings.aovs.empty() && !asks_for(settings, is_part_of_light),
+         "no parts of the light were asked for", "telling them apart in every sample");
+    skip(!settings.alpha, "no alpha was asked for", "its memory and writing");
     return p;
 }
 

@@ -61,6 +61,10 @@ void check_settings(const Scene &scene, const RenderSettings &s) {
     for (const std::string &aov : s.aovs)
         problems.need(std::find(known.begin(), known.end(), aov) != known.end(),
                       "no AOV '" + aov + "'", "aov", accepted_names(aov, known));
+    for (std::size_t i = 0; i < s.aovs.size(); ++i)
+        problems.need(std::find(s.aovs.begin(), s.aovs.begin() + static_cast<std::ptrdiff_t>(i),
+                                s.aovs[i]) == s.aovs.begin() + static_cast<std::ptrdiff_t>(i),
+                      "the AOV '" + s.aovs[i] + "' is named twice", "aov", "expected each once");
     problems.throw_if_any();
 }
 
@@ -177,8 +181,6 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
 }
 
 } // namespace
-
-std::vector<std::string> aov_names() { return {"coverage", "depth", "normal", "warp", "object"}; }
 
 RenderResult render(const Scene &scene, const RenderSettings &asked, const Progress &progress,
                     PreparedScene *prepared) {

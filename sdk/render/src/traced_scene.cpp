@@ -271,9 +271,7 @@ Colours TracedScene::printed(const SurfacePoint &point, float distance, bool see
 
 const TracedScene::Sides &TracedScene::sides_at(const Hit &hit) const {
     const std::vector<Sides> &of_panel = sides_[hit.object];
-    const Surface &surface = scene.surfaces[scene.objects[hit.object].surface.value];
-    return of_panel.size() == 1 || surface.panel.empty() ? of_panel.front()
-                                                         : of_panel[surface.panel[hit.triangle]];
+    return of_panel.size() == 1 ? of_panel.front() : of_panel[panel_of(hit)];
 }
 
 float TracedScene::opacity(const Hit &hit, float footprint) const {
@@ -287,8 +285,28 @@ float TracedScene::opacity(const Hit &hit, float footprint) const {
     return cover > kWhole ? 1.0f : cover;
 }
 
+std::uint32_t TracedScene::panel_of(const Hit &hit) const {
+    const Surface &surface = surface_of(hit);
+    return surface.panel.empty() ? 0 : surface.panel[hit.triangle];
+}
+
+glm::vec3 TracedScene::weft_at(const Hit &hit, const SurfacePoint &point) const {
+    const Surface &surface = surface_of(hit);
+    if (surface.warp.empty())
+        return glm::vec3(0);
+    const glm::uvec3 t = surface.triangle[hit.triangle];
+    const glm::vec3 weft = surface.weft.empty() ? glm::cross(point.warp, point.frame.normal)
+                                                : hit.barycentric.x * surface.weft[t.x] +
+                                                      hit.barycentric.y * surface.weft[t.y] +
+                                                      hit.barycentric.z * surface.weft[t.z];
+    const float length = glm::length(weft);
+    return length > 0 ? weft / length : weft;
+}
+
 glm::vec2 TracedScene::uv_at(const Hit &hit) const {
-    const Surface &surface = scene.surfaces[scene.objects[hit.object].surface.value];
+    const Surface &surface = surface_of(hit);
+    if (surface.uv.empty())
+        return glm::vec2(0);
     const glm::uvec3 t = surface.triangle[hit.triangle];
     return hit.barycentric.x * surface.uv[t.x] + hit.barycentric.y * surface.uv[t.y] +
            hit.barycentric.z * surface.uv[t.z];

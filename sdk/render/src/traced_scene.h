@@ -80,6 +80,13 @@ struct TracedScene {
     }
     // The point that a ray of this direction hit.
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
+    // Of the cloth, metres; 0 where the surface has none.
+    glm::vec2 uv_at(const Hit &hit) const;
+    // Along the weft, unit; 0 where the surface has no yarns.
+    glm::vec3 weft_at(const Hit &hit, const SurfacePoint &point) const;
+    // Index of the fabric of the side that is seen, and of a panel of the object's surface.
+    std::uint32_t fabric_of(const SurfacePoint &point) const { return cloths_[point.cloth].fabric; }
+    std::uint32_t panel_of(const Hit &hit) const;
     bool is_printed(const SurfacePoint &point) const {
         return cloths_[point.cloth].print.has_value();
     }
@@ -100,7 +107,9 @@ struct TracedScene {
         std::optional<std::uint32_t> opacity;
     };
     const Sides &sides_at(const Hit &hit) const;
-    glm::vec2 uv_at(const Hit &hit) const;
+    const Surface &surface_of(const Hit &hit) const {
+        return scene.surfaces[scene.objects[hit.object].surface.value];
+    }
     // A map with its place.
     struct PreparedOpacity {
         const MipTexture *picture;

@@ -1,8 +1,33 @@
 #include "tsuya/sdk/image.h"
 
+#include <algorithm>
+#include <cstdio>
+
 #include "tsuya/sdk/spectral_image.h"
 
 namespace tsuya {
+namespace {
+
+// [Fichet] dots separate layers, so the decimal sign is a comma
+std::string wavelength_text(double wavelength_nm) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.3f", wavelength_nm);
+    std::string text = number;
+    std::replace(text.begin(), text.end(), '.', ',');
+    return text + "nm";
+}
+
+std::vector<std::string> channel_names(const std::string &layer, const SpectralBasis &basis,
+                                       bool at_depths) {
+    std::vector<std::string> names;
+    for (int k = 0; k < basis.count; ++k)
+        names.push_back(layer + '.' +
+                        (at_depths ? std::string("depth.") + (k < 10 ? "0" : "") + std::to_string(k)
+                                   : wavelength_text(basis.centre_nm(k))));
+    return names;
+}
+
+} // namespace
 
 Image Image::make(int width, int height, std::vector<std::string> channels) {
     const std::size_t size =
@@ -17,6 +42,19 @@ SpectralImage SpectralImage::make(int width, int height, SpectralBasis basis,
     image.transport.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                            static_cast<std::size_t>(basis.count) * image.groups.size());
     return image;
+}
+
+std::string spectral_channel_name(const std::string &group, double wavelength_nm) {
+    return group + ".S0." + wavelength_text(wavelength_nm);
+}
+
+std::vector<std::string> transport_channel_names(const std::string &group,
+                                                 const SpectralBasis &basis, bool at_depths) {
+    return channel_names(group + (at_depths ? "" : ".S0"), basis, at_depths);
+}
+
+std::vector<std::string> reflectance_channel_names(const SpectralBasis &basis, bool at_depths) {
+    return channel_names("T", basis, at_depths);
 }
 
 } // namespace tsuya

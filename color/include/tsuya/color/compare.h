@@ -25,19 +25,22 @@ struct LampDifference {
     std::size_t pixels = 0; ///< how many counted; all measures are 0 where none did
 };
 
+/// How much of each pixel the garment covers: the AOV `garment`, else `coverage`, else alpha; null
+/// where the picture has none of them.
+const Image *garment_coverage(const SpectralImage &transport);
+
 /// How the pictures of lamps are compared.
 struct CompareOptions {
     Adaptation adapt = Adaptation::cat02; ///< each picture is adapted from its lamp to D65
     Observer observer = Observer::cie1931;
     double exposure_stops = 0; ///< the same for all pictures; L* = 100 is Y = 1 after it
-    /// Name of an AOV whose first channel says how much of the pixel the garment covers; a pixel
-    /// counts where that is at least 0.5. Where the image has no such AOV, a pixel counts where its
-    /// transport is not all 0. Pixels that are not finite never count.
-    std::string coverage_aov = "coverage";
 };
 
-/// One entry a pair of lamps, in the order (0,1), (0,2), ..., (1,2), ...; each lamp lights all
-/// groups. Throws Error as relight, and for fewer than two lamps or a name used twice.
+/// A pixel counts where the garment covers at least half of it, see garment_coverage; where nothing
+/// tells, where its transport is not all 0. Pixels that are not finite never count. Alpha is taken
+/// out of the colours. One entry a pair of lamps, in the order (0,1), (0,2), ..., (1,2), ...; each
+/// lamp lights all groups. Throws Error as relight, and for fewer than two lamps or a name used
+/// twice.
 std::vector<LampDifference> compare_lamps(const SpectralImage &transport,
                                           std::span<const NamedLamp> lamps,
                                           const CompareOptions &options = {});

@@ -21,7 +21,8 @@ namespace tsuya {
 void check_pictures();
 
 /// Writes a PNG of a display picture: values in [0, 1], already encoded (see display), clamped; 1
-/// (grey), 3 (RGB) or 4 (RGBA) channels. `bits` is 8 or 16. Throws Error at the path for another
+/// (grey), 3 (RGB) or 4 (RGBA) channels, the colours not multiplied by alpha, which is linear, as
+/// PNG has them. `bits` is 8 or 16. Throws Error at the path for another
 /// number of channels or bits, a value that is NaN, or a file that cannot be written.
 void write_png(const std::filesystem::path &path, const Image &image, int bits = 8);
 
@@ -46,18 +47,19 @@ void write_exr(const std::filesystem::path &path, const Image &image,
 
 /// Writes light transport as a spectral EXR in the layout of [Fichet]: a channel of the group `key`
 /// is named after its centre with a decimal comma, e.g. `key.S0.400,000nm`; AOVs are layers, e.g.
-/// `aov.normal.X`. Attributes: `tsuya:schema`, `tsuya:basis`, `tsuya:group.<i>`,
-/// `tsuya:aov.<i>`, and the metadata as `tsuya:meta:<key>` (an
+/// `aov.normal.X`, but those of Cryptomatte, whose channels and metadata `cryptomatte/...` have
+/// their own names. Alpha is the channel `A`, by which colours are multiplied (associated alpha).
+/// AOVs are always float32. The file has the data window of the picture in the display window of
+/// the whole. Attributes: `tsuya:schema`, `tsuya:basis`, `tsuya:group.<i>`,
+/// `tsuya:aov.<i>`, `tsuya:alpha`, and the metadata as `tsuya:meta:<key>` (an
 /// entry without a value is left out). Throws Error at the path, also for
 /// sizes that do not agree and names that are empty or used twice.
 void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &image,
                         SampleType samples = SampleType::float32);
 
-/// Reads what write_spectral_exr wrote; floats are exact. Throws Error at the path: no such file,
+/// Reads what write_spectral_exr wrote, the whole picture with 0 outside of its data window; floats
+/// are exact. Throws Error at the path: no such file,
 /// no EXR, none of ours, a channel that is missing, cut short.
 SpectralImage read_spectral_exr(const std::filesystem::path &path);
-
-/// The name of a spectral channel, e.g. `key.S0.400,000nm`.
-std::string spectral_channel_name(const std::string &group, double wavelength_nm);
 
 } // namespace tsuya

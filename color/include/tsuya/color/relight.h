@@ -43,4 +43,9 @@ Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
 Image relight(const SpectralImage &transport, const Spectrum &lamp,
               const RelightOptions &options = {});
 
+/// Takes the share of alpha out of a picture (X, Y, Z as relight makes it): what is left are the
+/// colours of the covered part of each pixel, 0 where nothing is covered.
+/// \param alpha of the same size, one channel
+void divide_by_alpha(Image &xyz, const Image &alpha);
+
 } // namespace tsuya

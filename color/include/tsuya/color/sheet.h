@@ -12,7 +12,9 @@ namespace tsuya {
 
 /// A picture of a sheet, and the words under it.
 struct SheetPicture {
-    Image image{};         ///< display-encoded R, G, B, as `display` makes it
+    /// Display-encoded R, G, B, as `display` makes it; with a channel A it lies on the sheet's
+    /// ground
+    Image image{};
     std::string caption{}; ///< under the picture; UTF-8; all shrink until the longest fits
 };
 

@@ -17,9 +17,13 @@ namespace tsuya::scene {
 /// How pictures look by default: colours as seen beside daylight, highlights rolled off.
 inline DisplayOptions default_look() { return {.adapt = Adaptation::none, .view = "Soft"}; }
 
-/// Display-encoded R, G, B of the transport under one lamp for all light groups, or one for each,
-/// each times its factor; under one of the name `own`, each group has the lamp of its own, see
-/// own_lamps.h.
+/// Channels X, Y, Z of the transport under one lamp for all light groups, or one for each, each
+/// times its factor; under one of the name `own`, each group has the lamp of its own, see
+/// own_lamps.h. Throws Error as relight.
+Image xyz_under(const SpectralImage &transport, std::span<const NamedLamp> lamps);
+
+/// Display-encoded R, G, B of the same; where the transport has alpha also A, by which the colours
+/// are not multiplied (as PNG has it).
 /// Where the look adapts, the eye is used to the lamp of the first group. Throws Error as relight
 /// and display.
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,

@@ -70,6 +70,8 @@ struct BackdropEntry {
 struct OutputEntry {
     std::vector<NamedLamp> lamps{}; ///< none: no picture
     DisplayOptions look = default_look();
+    bool metered = false; ///< the exposure is an ExposureMeter's
+    bool alpha = false;   ///< see RenderSettings::alpha; the backdrop is left out of the scene
 };
 
 /// A scene as its author describes it, with every value in range. Paths are relative to the working

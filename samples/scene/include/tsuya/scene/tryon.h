@@ -75,14 +75,22 @@ struct TryOn {
     bool keeps_own_dye = false;          ///< a dyed fabric has its own dye in place of `dyes`
     std::string studio = kDefaultStudio; ///< see make_studio
     std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_picture_lamps
-    double azimuth_deg = 25; ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
+    double azimuth_deg = 25;   ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
+    bool orthographic = false; ///< parallel rays, see Framing
+    std::optional<Lens> lens{}; ///< focused on the garment unless it says where; empty: all sharp
     int width = 800;
     int height = 1000;
     /// Pictures of one sample per pixel are never denoised.
     RenderSettings render{.stop = kTryOnQuality, .denoise = true, .widen_after_diffuse = true};
     TableCache cache{}; ///< of the fabrics' tables
     DisplayOptions look = default_look();
-    bool page = false;              ///< also make the live page; without frames only
+    bool page = false; ///< also make the live page; without frames only
+    /// The exposure of all pictures is metered on the garment, see ExposureMeter, in place of the
+    /// look's.
+    bool metered = false;
+    /// false: nothing stands behind garment and body, and the pictures have alpha, see
+    /// RenderSettings::alpha
+    bool backdrop = true;
     std::filesystem::path output{}; ///< a folder; made where it is missing
     /// Keeps renders in it that are complete and of the same scene and settings; their pictures are
     /// written again.
@@ -108,9 +116,8 @@ struct TryOnScene {
 /// first. Throws Error for files that cannot be read, and Interrupted.
 TryOnScene make_try_on_scene(const TryOn &job, const Progress &progress = {});
 
-/// Renders the scene of a try-on with one AOV, `coverage`: 1 where the garment fills
-/// the pixel, else 0; compare_lamps counts these pixels. Replaces `settings.aovs`. Throws Error as
-/// render.
+/// Renders the scene of a try-on with the AOV `garment` beside those of the settings: compare_lamps
+/// and ExposureMeter look at it. Throws Error as render.
 /// \param prepared see render
 RenderResult render_try_on(const Scene &scene, const RenderSettings &settings,
                            const Progress &progress = {}, PreparedScene *prepared = nullptr);
@@ -122,11 +129,12 @@ struct TryOnResult {
     std::vector<Problem> warnings{};         ///< of the renders and of files of spectra, each once
     std::vector<PackingError> page_errors{}; ///< of the live page, one a dress
     garment::Report report{};
+    double exposure_stops = 0; ///< of the pictures
     bool interrupted = false;
 };
 
 /// Renders once for all dyes or for each, and writes into the output folder `DYE.exr` (light
-/// transport, with the AOV `coverage` of the garment), `DYE-LAMP.png` for each lamp, and
+/// transport, with the AOV `garment`), `DYE-LAMP.png` for each lamp, and
 /// `sheet.png`; with `page` also `page.html`, which shows any lamp, and any dye where one render
 /// serves all. With frames or a turntable, each dye and frame gives `DYE-0000.exr` and
 /// `DYE-LAMP-0000.png`, and neither sheet nor page; where they are wanted, also `DYE-LAMP.mp4`.

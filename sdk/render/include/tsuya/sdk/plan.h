@@ -23,6 +23,7 @@ struct Skip {
 struct Plan {
     int max_bounces = 0;      ///< 0 where no surface scatters light on
     bool environment = false; ///< an environment shines
+    bool lights_seen = false; ///< the camera sees those that are visible
     bool any_specular = false;
     bool any_diffuse = false;
     bool widens = false;          ///< bounces meet wider lobes, see RenderSettings

@@ -42,10 +42,14 @@ struct RenderSettings {
     int threads = 0;      ///< 0: all
     std::uint32_t seed = 0;
     std::optional<std::array<int, 4>> crop{}; ///< x0, y0, x1, y1 in pixels, half open
-    std::vector<std::string> aovs{};          ///< names of AOVs, see aov_names
+    std::vector<std::string> aovs{};          ///< names of AOVs, see aov_names; each once
+    /// Keeps what part of each pixel objects cover, see SpectralImage::alpha. The camera does not
+    /// see lights and the environment then; objects see them as before.
+    bool alpha = false;
     /// Filters the noise out of the finished picture, guided by what the camera sees: for pictures
     /// to be looked at, not for measurements. Every light group and channel of a pixel is filtered
-    /// by the same weights, so that the picture can be relit as before. Needs 2 samples per pixel.
+    /// by the same weights, and so is alpha, so that the picture can be relit as before. Needs 2
+    /// samples per pixel.
     /// An interrupted render and snapshots are not filtered, nor are the AOVs.
     bool denoise = false;
     /// Light that was scattered diffusely meets wider lobes from then on, see widened_material.h:
@@ -72,8 +76,28 @@ struct RenderSettings {
     std::function<void(const RenderResult &)> snapshot{};
 };
 
-/// Names of AOVs for RenderSettings::aovs: coverage, depth (metres), normal, warp, object (its
-/// index plus 1; 0 where there is none).
+/// Names of AOVs for RenderSettings::aovs. Each is a mean over all samples of a pixel, of which
+/// those that meet nothing count as 0; what is not asked for is not computed. None is denoised. A
+/// light that the camera sees straight counts as direct and as surface.
+/// - coverage, garment (A): share of the pixel that objects cover, that garments cover
+/// - depth (Z): distance from the eye, the lens or the eye's plane, metres
+/// - normal, warp, weft (X, Y, Z): unit directions in the scene, of the shading normal on the
+///   viewer's side and of the yarns
+/// - uv (U, V): place on the cloth, metres
+/// - albedo (T.400,000nm, ...): share of light that the dyed part reflects, without the surface of
+///   its fibres
+/// - direct, indirect (key.S0.400,000nm, ...): transport straight from lights to what the camera
+///   sees, and all other; together the transport
+/// - surface, body (the same): transport to the camera by the surface of the fibres, and by their
+///   dyed part and through the cloth; together the transport
+/// - samples (Y): number of the pixel's
+/// - error (Y): half the difference of two independent halves of the samples, of the mean over
+///   groups and channels; of one pixel in four, which stands for its neighbours, unless
+///   StopRule::relative_error or RenderSettings::denoise is set
+/// - CryptoObject, CryptoFabric, CryptoPanel (CryptoObject00.R, ...): ids and coverage of the six
+///   names that cover most, largest first, as [Cryptomatte] has them: of the object, of the fabric
+///   on the side that is seen, and OBJECT/PANEL. The image's metadata have the names
+///   (cryptomatte/...)
 std::vector<std::string> aov_names();
 
 /// What a render did.

@@ -50,6 +50,9 @@ struct Object {
     /// not by chance, light to a point is weakened by what lies on its way.
     std::optional<OpacityIndex> opacity{};
     std::vector<PanelFabric> panels{}; ///< each panel once; those not here are as the object
+    /// It is what the picture is about: counted by the AOV `garment`, by which pictures are
+    /// compared and exposed.
+    bool garment = false;
 };
 
 /// Light from infinitely far. With a picture: latitude-longitude, row 0 towards +y, the centre

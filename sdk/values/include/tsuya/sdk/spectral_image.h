@@ -3,6 +3,7 @@
 /// What a render makes: lamp-free light transport T, K channels per light group (light
 /// transport is linear and acts on each wavelength by itself, so lamps are applied afterwards).
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,6 +30,12 @@ struct SpectralImage {
     std::vector<Image> aovs{};         ///< arbitrary output variables, see aov_names
     std::vector<std::string> aov_names{};
     std::map<std::string, std::string> metadata{}; ///< provenance, e.g. {"samples_per_pixel", "64"}
+    /// One channel `A`: the share of each pixel that objects cover. The transport is that of the
+    /// covered part times its share (associated alpha). Empty: the picture has no alpha.
+    std::optional<Image> alpha{};
+    /// x0, y0, x1, y1 in pixels, half open: the part that was rendered, all else is 0. Empty: the
+    /// whole picture.
+    std::optional<std::array<int, 4>> data_window{};
 
     /// All transport 0, without AOVs.
     static SpectralImage make(int width, int height, SpectralBasis basis,
@@ -47,5 +54,16 @@ struct SpectralImage {
                static_cast<std::size_t>(basis.count);
     }
 };
+
+/// The name of a spectral channel of a light group, e.g. `key.S0.400,000nm`. [Fichet]
+std::string spectral_channel_name(const std::string &group, double wavelength_nm);
+
+/// Names of the channels of a light group: spectral ones, or such as `key.depth.07` where they are
+/// depths of dye.
+std::vector<std::string> transport_channel_names(const std::string &group,
+                                                 const SpectralBasis &basis, bool at_depths);
+
+/// The same of a reflectance: `T.400,000nm` [Fichet], or `T.depth.07`.
+std::vector<std::string> reflectance_channel_names(const SpectralBasis &basis, bool at_depths);
 
 } // namespace tsuya

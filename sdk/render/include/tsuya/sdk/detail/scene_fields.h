@@ -74,7 +74,7 @@ template <class F, detail::MaybeConst<PanelFabric> T> void each_field(F &&f, T &
 }
 
 template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &object) {
-    auto &[name, surface, fabric, back, print, back_print, opacity, panels] = object;
+    auto &[name, surface, fabric, back, print, back_print, opacity, panels, garment] = object;
     f(detail::Field{.key = "name", .in_picture = false}, name);
     f(detail::Field{"surface"}, surface);
     f(detail::Field{"fabric"}, fabric);
@@ -83,6 +83,7 @@ template <class F, detail::MaybeConst<Object> T> void each_field(F &&f, T &objec
     f(detail::Field{"back_print"}, back_print);
     f(detail::Field{"opacity"}, opacity);
     f(detail::Field{"panels"}, panels);
+    f(detail::Field{"garment"}, garment);
 }
 
 template <class F, detail::MaybeConst<LightBehaviour> T> void each_field(F &&f, T &behaviour) {
@@ -222,7 +223,7 @@ template <class F, detail::MaybeConst<StopRule> T> void each_field(F &&f, T &sto
 
 template <class F, detail::MaybeConst<RenderSettings> T> void each_field(F &&f, T &settings) {
     // The last two are calls to the caller and hold no value
-    [[maybe_unused]] auto &[stop, channels, max_bounces, threads, seed, crop, aovs, denoise,
+    [[maybe_unused]] auto &[stop, channels, max_bounces, threads, seed, crop, aovs, alpha, denoise,
                             widen_after_diffuse, skip, checkpoint, checkpoint_seconds, resume,
                             snapshot_wanted, snapshot] = settings;
     f(detail::Field{.key = "stop", .in_picture = false}, stop);
@@ -232,6 +233,7 @@ template <class F, detail::MaybeConst<RenderSettings> T> void each_field(F &&f, 
     f(detail::Field{"seed"}, seed);
     f(detail::Field{"crop"}, crop);
     f(detail::Field{"aovs"}, aovs);
+    f(detail::Field{"alpha"}, alpha);
     f(detail::Field{"denoise"}, denoise);
     f(detail::Field{"widen_after_diffuse"}, widen_after_diffuse);
     f(detail::Field{"skip"}, skip);

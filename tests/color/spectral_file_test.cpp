@@ -1,0 +1,175 @@
+// Spectral EXR files: what is written comes back, with its place, alpha and names.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "color_test.h"
+#include "some_pictures.h"
+#include "tsuya/color/image_file.h"
+#include "tsuya/sdk/error.h"
+#include "tsuya/sdk/file.h"
+
+namespace tsuya {
+namespace {
+
+using namespace tsuya::test;
+
+SpectralImage transport_of_dyes() {
+    SpectralImage image = SpectralImage::make(5, 4, {.count = 16}, {"key"});
+    for (std::size_t i = 0; i < image.transport.size(); ++i)
+        image.transport[i] = static_cast<float>(i) / 7;
+    image.depths = make_dye_depths(
+        {{.name = "silk",
+          .dye = {{400, 550.25, 700}, {0.1, 1.0 / 3, 0.9}},
+          .open = true,
+          .highest = 0.953},
+         {.name = "linen.weft", .dye = Spectrum::constant(0.4), .lowest = 0.3, .highest = 0.5}},
+        16);
+    return image;
+}
+
+TEST(SpectralFile, DepthsOfDyeAreKeptToTheLastBit) {
+    const test::Folder folder;
+    const SpectralImage image = transport_of_dyes();
+    write_spectral_exr(folder / "d.exr", image);
+    const SpectralImage back = read_spectral_exr(folder / "d.exr");
+    EXPECT_EQ(back.depths, image.depths);
+    EXPECT_EQ(back.basis.count, 16);
+    EXPECT_TRUE(same_bits(back.transport, image.transport));
+    const Image layers = read_image(folder / "d.exr");
+    EXPECT_NE(std::find(layers.channels.begin(), layers.channels.end(), "key.depth.07"),
+              layers.channels.end());
+}
+
+TEST(SpectralFile, DepthsOfDyeThatDoNotFitAreRefused) {
+    const test::Folder folder;
+    SpectralImage image = transport_of_dyes();
+    image.depths->node.pop_back();
+    image.depths->degree.pop_back();
+    EXPECT_THROW(write_spectral_exr(folder / "d.exr", image), Error);
+    image.depths->degree.push_back({0, 0}); // of which there is one already
+    image.depths->node.push_back({0.1, 0.3});
+    EXPECT_THROW(write_spectral_exr(folder / "d.exr", image), Error);
+    EXPECT_EQ(folder.size(), 0);
+}
+
+TEST(SpectralFile, RoundTripIsExact) {
+    const test::Folder folder;
+    const SpectralImage image = some_transport();
+    write_spectral_exr(folder / "t.exr", image);
+    const SpectralImage back = read_spectral_exr(folder / "t.exr");
+    EXPECT_EQ(back.width, image.width);
+    EXPECT_EQ(back.height, image.height);
+    EXPECT_EQ(back.basis, image.basis);
+    EXPECT_EQ(back.groups, image.groups);
+    EXPECT_TRUE(same_bits(back.transport, image.transport));
+    EXPECT_EQ(back.aov_names, image.aov_names);
+    ASSERT_EQ(back.aovs.size(), image.aovs.size());
+    for (std::size_t i = 0; i < image.aovs.size(); ++i) {
+        EXPECT_EQ(back.aovs[i].channels, image.aovs[i].channels);
+        EXPECT_TRUE(same_bits(back.aovs[i].data, image.aovs[i].data));
+    }
+    EXPECT_EQ(back.metadata, image.metadata);
+    EXPECT_EQ(folder.size(), 1);
+}
+
+TEST(SpectralFile, PartKeepsItsPlaceAndAlpha) {
+    const test::Folder folder;
+    SpectralImage image = some_transport();
+    image.alpha = ramp(37, 29, {"A"});
+    image.data_window = {5, 11, 30, 27};
+    const auto is_inside = [](int x, int y) { return x >= 5 && x < 30 && y >= 11 && y < 27; };
+    write_spectral_exr(folder / "part.exr", image);
+    const SpectralImage back = read_spectral_exr(folder / "part.exr");
+    EXPECT_EQ(back.width, 37);
+    EXPECT_EQ(back.height, 29);
+    EXPECT_EQ(back.data_window, image.data_window);
+    ASSERT_TRUE(back.alpha);
+    for (int y = 0; y < 29; ++y)
+        for (int x = 0; x < 37; ++x)
+            if (is_inside(x, y)) {
+                ASSERT_EQ(back.pixel(1, x, y)[15], image.pixel(1, x, y)[15]);
+                ASSERT_EQ(back.aovs[1].pixel(x, y)[2], image.aovs[1].pixel(x, y)[2]);
+                ASSERT_EQ(*back.alpha->pixel(x, y), *image.alpha->pixel(x, y));
+            } else {
+                ASSERT_EQ(back.pixel(1, x, y)[15], 0);
+                ASSERT_EQ(*back.alpha->pixel(x, y), 0);
+            }
+    // Other programs see the part alone, and alpha as A
+    const Image part = read_image(folder / "part.exr");
+    EXPECT_EQ(part.width, 25);
+    EXPECT_EQ(part.height, 16);
+    EXPECT_NE(std::find(part.channels.begin(), part.channels.end(), "A"), part.channels.end());
+    image.data_window.reset();
+    write_spectral_exr(folder / "whole.exr", image);
+    EXPECT_LT(std::filesystem::file_size(folder / "part.exr"),
+              std::filesystem::file_size(folder / "whole.exr") / 2);
+    EXPECT_FALSE(read_spectral_exr(folder / "whole.exr").data_window);
+    EXPECT_TRUE(same_bits(read_spectral_exr(folder / "whole.exr").alpha->data, image.alpha->data));
+}
+
+// Names and attributes that programs for mattes look for; ids must not be rounded.
+TEST(SpectralFile, CryptomattesKeepTheirNamesAndBits) {
+    const test::Folder folder;
+    SpectralImage image = some_transport();
+    image.aov_names.push_back("CryptoObject");
+    image.aovs.push_back(Image::make(37, 29, {"CryptoObject00.R", "CryptoObject00.G"}));
+    image.aovs.back().data[4] = 6.07056271e-17f;
+    image.aovs.back().data[5] = 1;
+    image.metadata["cryptomatte/abc1234/name"] = "CryptoObject";
+    write_spectral_exr(folder / "ids.exr", image, SampleType::half);
+    const SpectralImage back = read_spectral_exr(folder / "ids.exr");
+    EXPECT_TRUE(same_bits(back.aovs[2].data, image.aovs[2].data));
+    EXPECT_TRUE(same_bits(back.aovs[1].data, image.aovs[1].data));
+    EXPECT_EQ(back.metadata, image.metadata);
+    EXPECT_NE(back.transport, image.transport) << "half";
+    const Image file = read_image(folder / "ids.exr");
+    EXPECT_NE(std::find(file.channels.begin(), file.channels.end(), "CryptoObject00.R"),
+              file.channels.end());
+    const std::string bytes = read_file(folder / "ids.exr");
+    EXPECT_NE(bytes.find(std::string("cryptomatte/abc1234/name") + '\0'), std::string::npos);
+}
+
+TEST(SpectralFile, RoundTripOfOddBasis) {
+    const test::Folder folder;
+    for (const SpectralBasis basis : {SpectralBasis{32, 400, 700}, SpectralBasis{1, 500, 600},
+                                      SpectralBasis{7, 380.25, 1e3 / 1.3}}) {
+        SpectralImage image = SpectralImage::make(3, 2, basis, {"key"});
+        for (std::size_t i = 0; i < image.transport.size(); ++i)
+            image.transport[i] = static_cast<float>(i);
+        write_spectral_exr(folder / "t.exr", image);
+        const SpectralImage back = read_spectral_exr(folder / "t.exr");
+        EXPECT_EQ(back.basis, basis);
+        EXPECT_EQ(back.transport, image.transport);
+    }
+}
+
+TEST(SpectralFile, HalfIsNear) {
+    const test::Folder folder;
+    const SpectralImage image = some_transport();
+    write_spectral_exr(folder / "h.exr", image, SampleType::half);
+    const SpectralImage back = read_spectral_exr(folder / "h.exr");
+    bool rounded = false;
+    for (std::size_t i = 0; i < image.transport.size(); ++i) {
+        ASSERT_NEAR(back.transport[i], image.transport[i],
+                    std::abs(image.transport[i]) / 2048 + 1e-7f);
+        rounded = rounded || back.transport[i] != image.transport[i];
+    }
+    EXPECT_TRUE(rounded);
+}
+
+TEST(SpectralFile, ChannelsHaveLayoutNames) {
+    EXPECT_EQ(spectral_channel_name("key", 400), "key.S0.400,000nm");
+    EXPECT_EQ(spectral_channel_name("key", 409.67741935), "key.S0.409,677nm");
+    const test::Folder folder;
+    write_spectral_exr(folder / "t.exr", some_transport());
+    const std::vector<std::string> names = read_image(folder / "t.exr").channels;
+    for (const char *name : {"key.S0.420,000nm", "a fill.left.S0.700,000nm", "aov.normal.x"})
+        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+}
+
+} // namespace
+} // namespace tsuya
