@@ -30,8 +30,9 @@ std::vector<RenderScene> render_scenes(const std::filesystem::path &scenes);
 // studio of the benchmarks.
 std::vector<RenderScene> denoised_scenes(const std::filesystem::path &scenes);
 
-// The sample scenes with a quarter of their width, with the stop rules of their default quality: the
-// sample dress as it is tried on in two colours, the scene files of the samples, and the studio.
+// The sample scenes with a quarter of their width, with the stop rules of their default quality:
+// the sample dress as it is tried on in two colours, the scene files of the samples, and the
+// studio.
 std::vector<RenderScene> speck_scenes(const std::filesystem::path &scenes);
 
 } // namespace tsuya::bench
