@@ -239,6 +239,11 @@ TEST(SceneFile, PicturesWithAlphaHaveNoBackdrop) {
     EXPECT_TRUE(shown[0].garment);
     EXPECT_FALSE(shown[1].garment);
     EXPECT_FALSE(all[2].garment);
+    // Nor that of a studio
+    std::string text = "studio = \"softbox\"\n" + small_scene();
+    EXPECT_EQ(build_scene(read(scratch, text)).scene.objects.size(), 2u);
+    text += "[output]\nalpha = true\n";
+    EXPECT_EQ(build_scene(read(scratch, text)).scene.objects.size(), 1u);
 }
 
 TEST(SceneFile, CamerasFrameWithTheirOptics) {

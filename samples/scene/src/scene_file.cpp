@@ -223,7 +223,7 @@ struct SceneBuilder {
         if (!file.studio.empty()) {
             const glm::dvec3 back = scene.camera.eye - scene.camera.target;
             add_studio_to(scene, built.own_lamps, file.studio, meshes.points(),
-                          std::atan2(back.x, back.z), !file.backdrop);
+                          std::atan2(back.x, back.z), !file.backdrop && !file.output.alpha);
         }
     }
 
