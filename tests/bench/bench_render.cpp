@@ -1,9 +1,10 @@
 // Error of pictures against the processor time of their rendering, as CSV.
-//   bench_render errors|asked|denoised SCENES SAMPLES_OF_REFERENCES FOLDER [PART_OF_NAME]
+//   bench_render errors|asked|denoised|specks SCENES SAMPLES_OF_REFERENCES FOLDER [PART_OF_NAME]
 //   bench_render growth
 // errors: by the number of samples; asked: by the error asked for; denoised: before and after the
-// denoiser; FOLDER keeps references. growth: time by the number of lights.
-// Times are of the whole process, user and system, without the loading of the scene's files.
+// denoiser; specks: with and without wider lobes and denoiser; FOLDER keeps references. growth:
+// time by the number of lights. Times are of the whole process, user and system, without the
+// loading of the scene's files.
 
 #include <sys/resource.h>
 
@@ -260,8 +261,9 @@ int main(int count, char **arguments) {
             growth();
             return EXIT_SUCCESS;
         }
-        std::cerr << "bench_render errors|asked|denoised SCENES SAMPLES FOLDER [PART_OF_NAME] | "
-                     "growth\n";
+        std::cerr
+            << "bench_render errors|asked|denoised|specks SCENES SAMPLES FOLDER [PART_OF_NAME] | "
+               "growth\n";
     } catch (const std::exception &error) {
         std::cerr << error.what() << "\n";
     }
