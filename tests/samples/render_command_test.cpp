@@ -45,6 +45,18 @@ TEST(RenderCommand, RendersAScene) {
     EXPECT_EQ(numbers.at("schema"), "tsuya-render-stats 1");
     EXPECT_EQ(numbers.at("samples_per_pixel"), 6);
     EXPECT_EQ(numbers.at("interrupted"), false);
+    EXPECT_EQ(numbers.at("samples"), 6 * 16 * 20);
+    std::vector<std::string> phases;
+    for (const json &phase : numbers.at("phases")) {
+        phases.push_back(phase.at("name"));
+        EXPECT_GE(phase.at("seconds"), 0);
+        EXPECT_GE(phase.at("cpu_seconds"), 0);
+    }
+    EXPECT_EQ(phases, (std::vector<std::string>{"load", "bvh", "tables", "trace", "write"}));
+    EXPECT_GT(numbers.at("peak_memory_bytes"), 1e6);
+    EXPECT_EQ(numbers.at("objects_built"), 1);
+    EXPECT_EQ(numbers.at("tables_made"), 0) << "a plain diffuser has none";
+    EXPECT_GT(numbers.at("skipped").size(), 0u);
     EXPECT_FALSE(fs::exists(exr.string() + ".checkpoint"));
 }
 

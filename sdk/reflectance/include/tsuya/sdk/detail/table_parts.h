@@ -25,7 +25,7 @@ class TableWriter {
   public:
     /// Members as `each_part` lists them.
     template <class... Parts> void operator()(const Parts &...parts) { (add(parts), ...); }
-    const std::string &bytes() const { return bytes_; }
+    const std::string &bytes() const { return bytes_; } ///< of all so far
 
   private:
     template <class T> void add(const T &part) {
