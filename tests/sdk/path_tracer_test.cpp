@@ -61,7 +61,7 @@ std::vector<float> samples_of(PathTracer<8> &tracer, std::size_t groups, int x, 
     for (std::uint32_t s = 0; s < count; ++s)
         samplers.emplace_back(hash(hash(std::uint32_t(x), std::uint32_t(y)), seed), s);
     std::vector<Channels<8>> radiance(count * groups);
-    tracer.trace(x, y, samplers, radiance.data(), groups, nullptr);
+    tracer.trace(x, y, samplers, radiance.data(), groups, nullptr, {});
     std::vector<float> values(count);
     for (std::size_t i = 0; i < radiance.size(); ++i)
         values[i / groups] += radiance[i].v[0];
