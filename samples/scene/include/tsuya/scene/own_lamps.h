@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tsuya/color/compare.h"
+#include "tsuya/color/lamp.h"
 #include "tsuya/sdk/spectral_image.h"
 
 namespace tsuya::scene {
