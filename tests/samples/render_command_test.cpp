@@ -204,7 +204,7 @@ TEST(RenderCommand, ResumesAnInterruptedRenderBitIdentically) {
                       parts = (scratch / "parts.exr").string();
     const auto call = [&](const std::string &out) {
         return std::vector<std::string>{"render", scene_file, "-o",         out,
-                                        "--spp",  "16384",    "--progress", "json"};
+                                        "--spp",  "32768",    "--progress", "json"};
     };
     SpectralImage partial;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) { // each goes on from the one before
