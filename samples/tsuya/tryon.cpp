@@ -35,9 +35,14 @@ struct TryOn final : Command {
         add_cloth(o);
         o.option("-o,--output", &job.output, "DIR", "folder for the results").required();
         o.flag(
-            "--html", &job.page,
-            "also write page.html, which shows any lamp, and any dye where one render serves all; "
-            "not for frames");
+             "--html", &job.page,
+             "also write page.html, which shows any lamp, and any dye where one render serves all; "
+             "not for frames")
+            .check([this] {
+                if (job.page && (job.turntable > 0 || !job.frames.empty() || job.morph_targets))
+                    throw Error(Problem{"there is no page of a sequence", "",
+                                        "expected a try-on without frames or turntable"});
+            });
         add_quality(o);
         look.add_to(o);
         o.flag("--no-backdrop", &no_backdrop,

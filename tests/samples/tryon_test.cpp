@@ -270,6 +270,20 @@ TEST(TryOn, SavesWhatIsDoneWhereItIsStopped) {
     }
 }
 
+// Also in a studio, whose lights have lamps of their own.
+TEST(TryOn, MakesAPageOfAStudio) {
+    const Scratch scratch;
+    TryOn job = small_job(scratch.folder());
+    job.studio = "shop";
+    job.lamps = {"own"};
+    job.dyes = {"white"};
+    job.page = true;
+    const TryOnResult result = run(job);
+    ASSERT_EQ(result.files.back().filename(), "page.html");
+    EXPECT_GT(fs::file_size(result.files.back()), 10000u);
+    EXPECT_EQ(result.page_errors.size(), 1u);
+}
+
 TEST(TryOn, OneRenderServesAllDyes) {
     const Scratch scratch;
     TryOn job = small_job(scratch.folder());
