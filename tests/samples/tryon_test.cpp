@@ -298,6 +298,8 @@ TEST(TryOn, OneRenderServesAllDyes) {
     const std::vector<std::string> white{"white"};
     show_dyes(image, white);
     EXPECT_EQ(image.depths, read_spectral_exr(scratch / "white.exr").depths);
+    const std::vector<std::string> two{"white", "indigo"};
+    EXPECT_THROW(show_dyes(image, two), Error);
     const std::vector<std::string> unknown{"no dress=white"};
     EXPECT_THROW(show_dyes(image, unknown), Error);
     // A print has colours of its own

@@ -148,6 +148,8 @@ TEST(DyeVariables, AreTheColoursThatVary) {
     scene.fabrics[0].colours.specular_tint = step(0.9, 1);
     EXPECT_THROW(dye_variables(scene), Error);
     EXPECT_THROW(render(scene, {.stop = {.samples_per_pixel = 1}}), Error);
+    scene.open_dyes = {FabricIndex{99}};
+    EXPECT_THROW(check_scene(scene), Error);
     scene.open_dyes.clear();
     EXPECT_EQ(plan(scene, {}).channels, 16);
     EXPECT_TRUE(plan(scene, {}).dyes.empty());

@@ -155,8 +155,13 @@ std::vector<std::string> show_dyes(SpectralImage &image, std::span<const std::st
         throw Error({"the dye of this picture is fixed", "dye",
                      "expected a picture of tryon, or of a scene with dye = \"any\""});
     std::vector<std::string> warnings;
+    std::set<std::string> names;
     for (const std::string &spec : specs) {
         const NamedSpec one = split_spec(spec);
+        if (!names.insert(one.name).second)
+            throw Error({"two dyes for " + (one.name.empty() ? std::string("all open dyes")
+                                                             : "'" + one.name + "'"),
+                         "dye", "expected one; FABRIC=DYE names a fabric"});
         const NamedDye dye = find_dye(one.spec);
         set_dye(*image.depths, one.name, dye.spectrum);
         warnings.insert(warnings.end(), dye.warnings.begin(), dye.warnings.end());

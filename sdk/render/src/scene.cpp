@@ -151,6 +151,11 @@ struct SceneCheck {
 
     // Of what is rendered.
     void fabrics() {
+        for (std::size_t i = 0; i < scene.open_dyes.size(); ++i)
+            need(scene.open_dyes[i].value < scene.fabrics.size(),
+                 "no fabric " + std::to_string(scene.open_dyes[i].value),
+                 "open_dyes[" + std::to_string(i) + "]",
+                 "expected an index below " + std::to_string(scene.fabrics.size()));
         const std::vector<bool> used = fabrics_in_use(scene);
         for (std::size_t i = 0; i < used.size(); ++i)
             try {
