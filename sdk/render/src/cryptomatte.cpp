@@ -20,7 +20,7 @@ std::string hex_text(std::uint32_t bits) {
 }
 
 // As JSON has it in quotes; names are UTF-8.
-std::string quoted(std::string_view name) {
+std::string json_string(std::string_view name) {
     std::string text = "\"";
     for (const char c : name) {
         if (c == '"' || c == '\\') {
@@ -119,7 +119,7 @@ std::map<std::string, std::string> id_metadata(const std::string &layer,
         hashes[name] = hex_text(id_bits(name));
     std::string manifest;
     for (const auto &[name, hash] : hashes)
-        manifest += (manifest.empty() ? "" : ",") + quoted(name) + ":\"" + hash + "\"";
+        manifest += (manifest.empty() ? "" : ",") + json_string(name) + ":\"" + hash + "\"";
     const std::string key = "cryptomatte/" + hex_text(id_bits(layer)).substr(0, 7) + "/";
     return {{key + "name", layer},
             {key + "hash", "MurmurHash3_32"},

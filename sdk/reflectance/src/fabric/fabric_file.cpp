@@ -232,7 +232,7 @@ void write_numbers(std::ostream &out, std::string_view key, const std::vector<do
 }
 
 // A TOML basic string. Bytes that are not UTF-8 are written as decode_text shows them.
-std::string quoted(const std::string &text) {
+std::string toml_string(const std::string &text) {
     std::ostringstream out;
     out << '"' << std::hex << std::setfill('0');
     for (const char c : decode_text(text, "")) {
@@ -280,19 +280,19 @@ class FabricWriter {
             out->imbue(std::locale::classic()); // a decimal point in every country
             out->precision(6);
         }
-        keys_ << "schema = " << quoted(kSchema) << "\n";
+        keys_ << "schema = " << toml_string(kSchema) << "\n";
     }
     std::string text() const { return keys_.str() + sections_.str() + specular_.str(); }
 
     void operator()(const Field &field, const std::string &text) {
-        keys_ << field.key << " = " << quoted(text) << "\n";
+        keys_ << field.key << " = " << toml_string(text) << "\n";
     }
     void operator()(const Field &field, const std::map<std::string, std::string> &texts) {
         if (texts.empty())
             return;
         sections_ << "\n[" << field.key << "]\n";
         for (const auto &[key, value] : texts)
-            sections_ << quoted(key) << " = " << quoted(value) << "\n";
+            sections_ << toml_string(key) << " = " << toml_string(value) << "\n";
     }
     void operator()(const Field &field, const Spectrum &spectrum) {
         if (!field.written)
@@ -308,7 +308,8 @@ class FabricWriter {
     void operator()(const Field &field, Lustre lustre) {
         if (field.written)
             keys_ << field.key << " = "
-                  << quoted(std::string(kLustreNames[static_cast<std::size_t>(lustre)])) << "\n";
+                  << toml_string(std::string(kLustreNames[static_cast<std::size_t>(lustre)]))
+                  << "\n";
     }
     void operator()(const Field &field, const std::optional<double> &value) {
         if (value)
@@ -323,13 +324,13 @@ class FabricWriter {
         const auto *const carried = find_specular<CarriedViews>(fabric);
         const auto *const table = find_specular<TabulatedSpecular>(fabric);
         if (carried)
-            keys_ << "symmetry = " << quoted(name_of(carried->bard.symmetry())) << "\n";
+            keys_ << "symmetry = " << toml_string(name_of(carried->bard.symmetry())) << "\n";
         if (const std::string model(model_of(fabric)); model != kDefaultModel)
-            keys_ << "model = " << quoted(model) << "\n";
+            keys_ << "model = " << toml_string(model) << "\n";
         if (carried && carried->f0)
             keys_ << "f0 = " << *carried->f0 << "\n";
         if (table)
-            keys_ << "table = " << quoted(table->file) << "\n";
+            keys_ << "table = " << toml_string(table->file) << "\n";
         if (const auto *const facets = find_specular<GgxFacets>(fabric))
             write_section(specular_, "ggx", *facets);
         if (const auto *const lobes = find_specular<YarnLobes>(fabric))
