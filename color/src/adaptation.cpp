@@ -64,7 +64,10 @@ bool can_adapt(Adaptation adaptation, const glm::dvec3 &from_white) {
 }
 
 glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white,
-                             const glm::dvec3 &to_white) {
+                             const glm::dvec3 &to_white, double degree) {
+    if (!(degree >= 0 && degree <= 1))
+        throw Error(
+            {"the degree of adaptation is " + std::to_string(degree), "degree", "expected 0 to 1"});
     if (adaptation == Adaptation::none)
         return glm::dmat3(1.0);
     const glm::dmat3 cones = cone_matrix(adaptation);
@@ -74,7 +77,7 @@ glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white
                      "adapt", "expected the adaptation none for so narrow a lamp"});
     glm::dmat3 scale(0.0);
     for (int i = 0; i < 3; ++i)
-        scale[i][i] = to[i] / from[i];
+        scale[i][i] = degree * to[i] / from[i] + 1 - degree;
     return glm::inverse(cones) * scale * cones;
 }
 

@@ -13,7 +13,7 @@
 namespace tsuya {
 namespace {
 
-void check(std::span<const NamedLamp> lamps) {
+void check(std::span<const Lighting> lamps) {
     if (lamps.size() < 2)
         throw Error({detail::counted(lamps.size(), "lamp") + " to compare", "lamps",
                      "expected at least two"});
@@ -24,34 +24,16 @@ void check(std::span<const NamedLamp> lamps) {
                              "lamps." + std::to_string(i), "expected each lamp once"});
 }
 
-bool lit(const SpectralImage &image, int x, int y) {
-    for (std::size_t g = 0; g < image.groups.size(); ++g)
-        for (int k = 0; k < image.basis.count; ++k)
-            if (image.pixel(g, x, y)[k] != 0)
-                return true;
-    return false;
-}
-
-std::vector<char> pixels_that_count(const SpectralImage &image) {
-    const Image *const coverage = garment_coverage(image);
-    std::vector<char> counts;
-    counts.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            counts.push_back(coverage ? *coverage->pixel(x, y) >= 0.5f : lit(image, x, y));
-    return counts;
-}
-
 /// CIELAB of each pixel, adapted to sRGB's white; also takes the pixels that are not finite out.
-std::vector<glm::vec3> lab_picture(const SpectralImage &transport, const NamedLamp &lamp,
+std::vector<glm::vec3> lab_picture(const SpectralImage &transport, const Lighting &lighting,
                                    const CompareOptions &options, std::vector<char> &counts) {
-    Image xyz = relight(transport, lamp.spectrum, {.observer = options.observer});
+    Image xyz = relight(transport, lighting, options.observer);
     if (transport.alpha)
         divide_by_alpha(xyz, *transport.alpha);
     const glm::dvec3 to = srgb_white();
     const glm::dmat3 adapt =
-        lamp.factor * std::exp2(options.exposure_stops) *
-        adaptation_matrix(options.adapt, white_of(lamp.spectrum, options.observer), to);
+        std::exp2(options.exposure_stops) *
+        adaptation_matrix(options.adapt, adopted_white(transport, lighting, options.observer), to);
     std::vector<glm::vec3> lab(counts.size(), glm::vec3(0.0f));
     const auto width = static_cast<std::size_t>(xyz.width);
     for_rows(xyz.height, width * 3, [&](int first, int end) {
@@ -90,42 +72,31 @@ LampDifference difference(const std::vector<glm::vec3> &a, const std::vector<glm
 
 } // namespace
 
-const Image *garment_coverage(const SpectralImage &transport) {
-    for (const char *name : {"garment", "coverage"})
-        for (std::size_t i = 0; i < transport.aovs.size(); ++i)
-            if (transport.aov_names[i] == name)
-                return &transport.aovs[i];
-    return transport.alpha ? &*transport.alpha : nullptr;
+std::vector<LampDifference> compare_lightings(const SpectralImage &transport,
+                                              std::span<const Lighting> lightings,
+                                              const CompareOptions &options) {
+    check(lightings);
+    std::vector<char> counts = garment_pixels(transport);
+    std::vector<std::vector<glm::vec3>> labs;
+    for (const Lighting &lighting : lightings)
+        labs.push_back(lab_picture(transport, lighting, options, counts));
+    std::vector<LampDifference> differences;
+    for (std::size_t i = 0; i < lightings.size(); ++i)
+        for (std::size_t j = i + 1; j < lightings.size(); ++j) {
+            differences.push_back(difference(labs[i], labs[j], counts));
+            differences.back().first = lightings[i].name;
+            differences.back().second = lightings[j].name;
+        }
+    return differences;
 }
 
 std::vector<LampDifference> compare_lamps(const SpectralImage &transport,
                                           std::span<const NamedLamp> lamps,
                                           const CompareOptions &options) {
-    check(lamps);
-    std::vector<char> counts = pixels_that_count(transport);
-    std::vector<std::vector<glm::vec3>> labs;
-    for (const NamedLamp &named : lamps)
-        labs.push_back(lab_picture(transport, named, options, counts));
-    std::vector<LampDifference> differences;
-    for (std::size_t i = 0; i < lamps.size(); ++i)
-        for (std::size_t j = i + 1; j < lamps.size(); ++j) {
-            differences.push_back(difference(labs[i], labs[j], counts));
-            differences.back().first = lamps[i].name;
-            differences.back().second = lamps[j].name;
-        }
-    return differences;
-}
-
-double metamerism_index(const Spectrum &first, const Spectrum &second, const Spectrum &reference,
-                        const Spectrum &test, Observer observer) {
-    const glm::dvec3 a = xyz_of(reference, first, observer),
-                     b = xyz_of(reference, second, observer);
-    if (!(b.x > 0 && b.y > 0 && b.z > 0))
-        throw Error({"the second reflectance is black under the reference lamp", "reflectance",
-                     "expected a reflectance with X, Y and Z greater than 0"});
-    const glm::dvec3 matched = xyz_of(test, second, observer) * (a / b);
-    const glm::dvec3 white = white_of(test, observer);
-    return ciede2000(lab_of(xyz_of(test, first, observer), white), lab_of(matched, white));
+    std::vector<Lighting> lightings;
+    for (const NamedLamp &lamp : lamps)
+        lightings.push_back(lighting_of(lamp));
+    return compare_lightings(transport, lightings, options);
 }
 
 } // namespace tsuya

@@ -151,9 +151,11 @@ void clamp_pixel(const glm::vec3 &xyz, float *rgb) {
         rgb[c] = finite ? std::clamp(rgb[c], 0.0f, 1.0f) : std::numeric_limits<float>::quiet_NaN();
 }
 
-Image apply(const OCIO::ConstCPUProcessorRcPtr &processor, const Image &xyz, double scale) {
+/// \param first_matrix is applied before the processor
+Image apply(const OCIO::ConstCPUProcessorRcPtr &processor, const Image &xyz,
+            const glm::dmat3 &first_matrix) {
     const std::array<std::size_t, 3> from = channel_indices(xyz, {"X", "Y", "Z"}, "picture");
-    const auto factor = static_cast<float>(scale);
+    const glm::mat3 before(first_matrix);
     Image rgb = Image::make(xyz.width, xyz.height, {"R", "G", "B"});
     const auto row_size = static_cast<std::size_t>(xyz.width) * 3;
     for_rows(xyz.height, row_size, [&](int first, int end) {
@@ -163,7 +165,7 @@ Image apply(const OCIO::ConstCPUProcessorRcPtr &processor, const Image &xyz, dou
             for (int x = 0; x < xyz.width; ++x) {
                 const float *in = xyz.pixel(x, y);
                 glm::vec3 &v = row[static_cast<std::size_t>(x)];
-                v = factor * glm::vec3(in[from[0]], in[from[1]], in[from[2]]);
+                v = before * glm::vec3(in[from[0]], in[from[1]], in[from[2]]);
                 std::copy_n(&v.x, 3, rgb.pixel(x, y));
             }
             OCIO::PackedImageDesc description(out, xyz.width, 1, OCIO::CHANNEL_ORDERING_RGB);
@@ -241,7 +243,7 @@ Image DisplayConfig::display(const Image &xyz, const std::string &lamp,
         const auto processor = impl_->config->getProcessor(
             space.c_str(), kDisplay, options.view.c_str(), OCIO::TRANSFORM_DIR_FORWARD);
         return apply(processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS), xyz,
-                     std::exp2(options.exposure_stops));
+                     glm::dmat3(std::exp2(options.exposure_stops)));
     } catch (const OCIO::Exception &error) {
         throw_ocio(error, impl_->where);
     }
@@ -267,8 +269,19 @@ std::string DisplayConfig::text() const {
 void DisplayConfig::save(const std::filesystem::path &path) const { write_file(path, text()); }
 
 Image display(const Image &xyz, const glm::dvec3 &lamp_white_xyz, const DisplayOptions &options) {
-    adaptation_matrix(options.adapt, lamp_white_xyz, srgb_white()); // its error says more
-    return DisplayConfig({{"lamp", lamp_white_xyz}}).display(xyz, "lamp", options);
+    const glm::dmat3 adapt =
+        adaptation_matrix(options.adapt, lamp_white_xyz, srgb_white(), options.degree);
+    view_description(options.view);
+    if (!std::isfinite(options.exposure_stops))
+        throw Error({"the exposure is not finite", "exposure", "expected stops such as -1 or 0.5"});
+    try {
+        const auto processor = make_config({})->getProcessor(
+            kReference, kDisplay, options.view.c_str(), OCIO::TRANSFORM_DIR_FORWARD);
+        return apply(processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS), xyz,
+                     std::exp2(options.exposure_stops) * adapt);
+    } catch (const OCIO::Exception &error) {
+        throw_ocio(error, "display config");
+    }
 }
 
 } // namespace tsuya

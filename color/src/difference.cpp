@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 namespace tsuya {
 namespace {
 
@@ -90,6 +92,53 @@ double ciede2000(const glm::dvec3 &lab_a, const glm::dvec3 &lab_b) {
     const double l_part = d_l / s_l, c_part = d_c / s_c, h_part = d_h / s_h;
     return std::sqrt(std::max(0.0, l_part * l_part + c_part * c_part + h_part * h_part +
                                        rotation * c_part * h_part));
+}
+
+double cie76(const glm::dvec3 &lab_a, const glm::dvec3 &lab_b) {
+    return glm::distance(lab_a, lab_b);
+}
+
+// [ISO105J03] section 4
+double cmc(const glm::dvec3 &standard, const glm::dvec3 &sample, double lightness, double chroma) {
+    const double c1 = std::hypot(standard.y, standard.z), c2 = std::hypot(sample.y, sample.z);
+    const double d_l = sample.x - standard.x, d_c = c2 - c1;
+    const double d_a = sample.y - standard.y, d_b = sample.z - standard.z;
+    const double d_h_squared = std::max(0.0, d_a * d_a + d_b * d_b - d_c * d_c);
+
+    const double hue = hue_deg(standard.y, standard.z);
+    const double t = hue >= 164 && hue <= 345
+                         ? 0.56 + std::abs(0.2 * std::cos((hue + 168) * kDegree))
+                         : 0.36 + std::abs(0.4 * std::cos((hue + 35) * kDegree));
+    const double c4 = c1 * c1 * c1 * c1, f = std::sqrt(c4 / (c4 + 1900));
+    const double s_l = standard.x < 16 ? 0.511 : 0.040975 * standard.x / (1 + 0.01765 * standard.x);
+    const double s_c = 0.0638 * c1 / (1 + 0.0131 * c1) + 0.638;
+    const double s_h = s_c * (f * t + 1 - f);
+    return std::hypot(d_l / (lightness * s_l), d_c / (chroma * s_c), std::sqrt(d_h_squared) / s_h);
+}
+
+double color_difference(DifferenceFormula formula, const glm::dvec3 &standard,
+                        const glm::dvec3 &sample) {
+    switch (formula) {
+    case DifferenceFormula::cie76:
+        return cie76(standard, sample);
+    case DifferenceFormula::cmc:
+        return cmc(standard, sample);
+    case DifferenceFormula::ciede2000:
+        break;
+    }
+    return ciede2000(standard, sample);
+}
+
+std::string to_string(DifferenceFormula formula) {
+    switch (formula) {
+    case DifferenceFormula::cie76:
+        return "CIE76";
+    case DifferenceFormula::cmc:
+        return "CMC(2:1)";
+    case DifferenceFormula::ciede2000:
+        break;
+    }
+    return "CIEDE2000";
 }
 
 } // namespace tsuya

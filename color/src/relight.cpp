@@ -1,10 +1,13 @@
 #include "tsuya/color/relight.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "rows.h"
+#include "tsuya/color/picture_region.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
@@ -61,6 +64,24 @@ void check(const SpectralImage &transport, std::span<const Spectrum> lamps,
         if (!(options.group_scale[g] >= 0) || std::isinf(options.group_scale[g]))
             throw Error({"the scale is " + std::to_string(options.group_scale[g]),
                          "group_scale." + transport.groups[g], "expected 0 or more"});
+}
+
+/// The mean of the channels of each light group over the pixels of the garment that are finite, and
+/// where there are none over all.
+std::vector<double> group_levels(const SpectralImage &transport) {
+    std::vector<char> counts = garment_pixels(transport);
+    if (std::find(counts.begin(), counts.end(), 1) == counts.end())
+        std::fill(counts.begin(), counts.end(), 1);
+    const auto channels = static_cast<std::size_t>(transport.basis.count);
+    std::vector<double> levels(transport.groups.size(), 0.0);
+    for (std::size_t g = 0; g < levels.size(); ++g) {
+        const float *t = transport.pixel(g, 0, 0);
+        for (std::size_t pixel = 0; pixel < counts.size(); ++pixel, t += channels) {
+            const double sum = counts[pixel] ? std::accumulate(t, t + channels, 0.0) : 0.0;
+            levels[g] += std::isfinite(sum) ? std::max(sum, 0.0) : 0.0;
+        }
+    }
+    return levels;
 }
 
 } // namespace
@@ -121,6 +142,40 @@ void divide_by_alpha(Image &xyz, const Image &alpha) {
 
 Image relight(const SpectralImage &transport, const Spectrum &lamp, const RelightOptions &options) {
     return relight(transport, std::span<const Spectrum>(&lamp, 1), options);
+}
+
+Lighting lighting_of(const NamedLamp &lamp) { return {lamp.name, lamp.caption, {lamp}}; }
+
+Image relight(const SpectralImage &transport, const Lighting &lighting, Observer observer) {
+    std::vector<Spectrum> spectra;
+    RelightOptions options{.observer = observer};
+    for (const NamedLamp &lamp : lighting.lamps) {
+        spectra.push_back(lamp.spectrum);
+        options.group_scale.push_back(lamp.factor);
+    }
+    if (lighting.lamps.size() == 1)
+        options.group_scale.assign(transport.groups.size(), lighting.lamps[0].factor);
+    return relight(transport, spectra, options);
+}
+
+glm::dvec3 adopted_white(const SpectralImage &transport, const Lighting &lighting,
+                         Observer observer) {
+    const std::vector<NamedLamp> &lamps = lighting.lamps;
+    if (lamps.size() != 1 && lamps.size() != transport.groups.size())
+        throw Error({detail::counted(lamps.size(), "lamp") + " for " +
+                         detail::counted(transport.groups.size(), "light group"),
+                     "lamps", "expected one lamp, or one for each light group"});
+    if (std::all_of(lamps.begin(), lamps.end(),
+                    [&](const NamedLamp &lamp) { return lamp.spectrum == lamps[0].spectrum; }))
+        return white_of(lamps[0].spectrum, observer);
+    const std::vector<double> levels = group_levels(transport);
+    glm::dvec3 sum(0.0), plain(0.0);
+    for (std::size_t g = 0; g < lamps.size(); ++g) {
+        const glm::dvec3 white = white_of(lamps[g].spectrum, observer);
+        sum += lamps[g].factor * levels[g] * white;
+        plain += white;
+    }
+    return sum.y > 0 ? sum / sum.y : plain / plain.y; // a picture without light: all alike
 }
 
 } // namespace tsuya

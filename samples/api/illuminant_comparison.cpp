@@ -6,6 +6,7 @@
 #include "tsuya/color/compare.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
+#include "tsuya/color/metamerism.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/error.h"

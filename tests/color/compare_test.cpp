@@ -124,24 +124,5 @@ TEST(Compare, RefusesFewOrRepeatedLamps) {
     test::expect_problem([&] { compare_lamps(image, twice); }, "lamps.1", "named twice");
 }
 
-TEST(Metamerism, IsZeroForEqualAndScaledOutUnderReference) {
-    const Spectrum d65 = lamp("D65"), a = lamp("A");
-    EXPECT_EQ(metamerism_index(dye("rose"), dye("rose"), d65, a), 0.0);
-    // Under the reference itself no difference is left, whatever the two are.
-    EXPECT_NEAR(metamerism_index(dye("rose"), dye("gold"), d65, d65), 0.0, 1e-9);
-    // A colour made smooth matches the dye under D65, not under tungsten.
-    const glm::dvec3 rgb = srgb_from_xyz() * xyz_of(d65, dye("rose"));
-    char text[8];
-    std::snprintf(text, sizeof text, "#%02x%02x%02x",
-                  static_cast<unsigned>(std::lround(255 * srgb_encode(rgb.x))) & 255u,
-                  static_cast<unsigned>(std::lround(255 * srgb_encode(rgb.y))) & 255u,
-                  static_cast<unsigned>(std::lround(255 * srgb_encode(rgb.z))) & 255u);
-    const double index = metamerism_index(dye("rose"), parse_dye(text), d65, a);
-    EXPECT_GT(index, 0.3);
-    EXPECT_LT(index, 6.0);
-    test::expect_problem([&] { metamerism_index(dye("rose"), Spectrum::constant(0), d65, a); },
-                         "reflectance", "black");
-}
-
 } // namespace
 } // namespace tsuya

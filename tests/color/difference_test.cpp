@@ -1,5 +1,7 @@
 #include "tsuya/color/difference.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace tsuya {
@@ -50,6 +52,40 @@ TEST(Difference, MatchesAllPairsOfSharma) {
         EXPECT_NEAR(ciede2000(b, a), p[6], 1e-4) << p[1] << ' ' << p[2] << ' ' << p[4];
         EXPECT_EQ(ciede2000(a, a), 0.0);
     }
+}
+
+// Pairs with their CMC(2:1), from the tests of colour-science 0.4.7: hues below, within and above
+// 164 to 345 degrees, at chromas far beyond those of cloth.
+TEST(Difference, CmcHitsPublishedPairs) {
+    const glm::dvec3 standard(100, 21.57210357, 272.22819350);
+    EXPECT_NEAR(cmc(standard, {100, 426.67945353, 72.39590835}), 172.70477, 5e-6);
+    EXPECT_NEAR(cmc(standard, {100, 74.05216981, 276.45318193}), 20.59733, 5e-6);
+    EXPECT_NEAR(cmc(standard, {100, 8.32281957, -73.58297716}), 121.71842, 1e-5);
+}
+
+// [ISO105J03] by hand at L* = 50, C* = 20, h = 90: S_L = 0.040975 x 50 / 1.8825,
+// S_C = 1.276 / 1.262 + 0.638, and below L* = 16 S_L = 0.511.
+TEST(Difference, CmcWeighsLightnessChromaAndHue) {
+    const glm::dvec3 standard(50, 0, 20);
+    EXPECT_NEAR(cmc(standard, {52, 0, 20}), 2 / (2 * 1.088313413), 1e-9);
+    EXPECT_NEAR(cmc(standard, {52, 0, 20}, 1, 1), 2 / 1.088313413, 1e-8);
+    EXPECT_NEAR(cmc(standard, {50, 0, 22}), 2 / 1.649093502, 1e-8);
+    EXPECT_NEAR(cmc(standard, {50, 0, 22}, 2, 2), 1 / 1.649093502, 1e-8);
+    EXPECT_NEAR(cmc({10, 0, 0}, {12, 0, 0}), 2 / (2 * 0.511), 1e-12);
+    // Blue, 270 degrees: T = 0.56 + |0.2 cos 78|; the hue circle turned a little
+    const double t = 0.56 + 0.2 * 0.2079116908, f = std::sqrt(160000.0 / 161900.0);
+    const double turn = 0.01, chroma = 20;
+    const glm::dvec3 blue(50, 0, -chroma);
+    EXPECT_NEAR(cmc(blue, {50, chroma * std::sin(turn), -chroma * std::cos(turn)}),
+                2 * chroma * std::sin(turn / 2) / (1.649093502 * (f * t + 1 - f)), 1e-7);
+}
+
+TEST(Difference, FormulaeByName) {
+    const glm::dvec3 a(50, 10, 20), b(52, 12, 17);
+    EXPECT_EQ(color_difference(DifferenceFormula::cmc, a, b), cmc(a, b));
+    EXPECT_EQ(color_difference(DifferenceFormula::ciede2000, a, b), ciede2000(a, b));
+    EXPECT_NEAR(color_difference(DifferenceFormula::cie76, a, b), std::sqrt(17.0), 1e-12);
+    EXPECT_EQ(to_string(DifferenceFormula::cmc), "CMC(2:1)");
 }
 
 TEST(Difference, LabOfWhiteGreyAndDark) {

@@ -33,8 +33,9 @@ bool can_adapt(Adaptation adaptation, const glm::dvec3 &from_white);
 /// The matrix (GLM: column-major) that takes XYZ under `from_white` to XYZ under `to_white`, in von
 /// Kries' form: cones of both whites by the matrix of [Lam] or [CIE159], cone by cone scaled, back.
 /// Maps `from_white` on `to_white`; the identity for `none`. Whites are XYZ with Y > 0. Throws
-/// Error if not can_adapt.
+/// Error if not can_adapt, and for a degree outside 0..1.
+/// \param degree of adaptation, D of [CIE159]: cones are scaled by D to / from + 1 - D
 glm::dmat3 adaptation_matrix(Adaptation adaptation, const glm::dvec3 &from_white,
-                             const glm::dvec3 &to_white);
+                             const glm::dvec3 &to_white, double degree = 1);
 
 } // namespace tsuya

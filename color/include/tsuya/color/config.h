@@ -41,6 +41,7 @@ struct DisplayOptions {
     Adaptation adapt = Adaptation::none;
     std::string view = "Plain";
     double exposure_stops = 0; ///< the picture is multiplied by 2^exposure_stops first
+    double degree = 1;         ///< of adaptation, 0 to 1, see adaptation_matrix
 };
 
 /// Colour spaces: `CIE XYZ D65` (the scene-referred reference), `Linear Rec.709`, and for each lamp

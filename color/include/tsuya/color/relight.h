@@ -3,10 +3,12 @@
 /// From lamp-free light transport to a picture under any lamp: K multiply-adds a pixel.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "tsuya/color/lamp.h"
 #include "tsuya/color/observer.h"
 #include "tsuya/sdk/dye_depths.h"
 #include "tsuya/sdk/image.h"
@@ -42,6 +44,27 @@ Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
 /// The same with one lamp for all light groups.
 Image relight(const SpectralImage &transport, const Spectrum &lamp,
               const RelightOptions &options = {});
+
+/// What lights a picture: lamps with their factors, and the name that they have together.
+struct Lighting {
+    std::string name{};             ///< in reports
+    std::string caption{};          ///< what to write under a picture
+    std::vector<NamedLamp> lamps{}; ///< one for all light groups, or one for each
+};
+
+/// One lamp for all light groups, with its name and caption.
+Lighting lighting_of(const NamedLamp &lamp);
+
+/// The picture under a lighting. Throws Error as relight.
+Image relight(const SpectralImage &transport, const Lighting &lighting,
+              Observer observer = Observer::cie1931);
+
+/// The white, with Y = 1, to which an eye is used that looks at the picture: that of its lamp;
+/// under several lamps their mean, weighed by the light that each brings to the garment (its factor
+/// times the mean transport of its group over garment_pixels, all pixels where there are none).
+/// Throws Error as relight.
+glm::dvec3 adopted_white(const SpectralImage &transport, const Lighting &lighting,
+                         Observer observer = Observer::cie1931);
 
 /// Takes the share of alpha out of a picture (X, Y, Z as relight makes it): what is left are the
 /// colours of the covered part of each pixel, 0 where nothing is covered.
