@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path_spline.h"
 #include "tsuya/lab/filament_outline.h"
 #include "tsuya/sdk/angle.h"
 #include "weave_layout.h"
@@ -9,23 +10,9 @@
 namespace tsuya::lab {
 namespace {
 
+using detail::spline;
 using detail::WeaveLayout;
 using detail::YarnSection;
-
-/// Half the thickness of a section at a distance from its axis; below 0 outside it.
-double half_thickness(const YarnSection &section, double across) {
-    const double beyond = std::max(0.0, std::abs(across) - section.half_flat);
-    if (beyond > section.radius)
-        return -1;
-    return std::sqrt(section.radius * section.radius - beyond * beyond);
-}
-
-/// A height between two places of a path, by the Catmull-Rom spline that the filaments follow.
-template <class Height> double spline(Height height, int place, double t) {
-    const double a = height(place - 1), b = height(place), c = height(place + 1),
-                 d = height(place + 2);
-    return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
-}
 
 constexpr int kBetween = 3; ///< heights per place of a path
 
@@ -75,8 +62,8 @@ void look_from_above(const WeaveLayout &layout, WeaveReport &report) {
             const auto across = [&](int place, double spacing) {
                 return (((place % points) + 0.5) / points - 0.5) * spacing;
             };
-            const double warp = half_thickness(layout.warp, across(l, layout.warp_spacing));
-            const double weft = half_thickness(layout.weft, across(k, layout.weft_spacing));
+            const double warp = layout.warp.half_thickness(across(l, layout.warp_spacing));
+            const double weft = layout.weft.half_thickness(across(k, layout.weft_spacing));
             const double warp_top = layout.paths.warp_height(l / points, k / kFiner) + warp;
             const double weft_top = layout.paths.weft_height(k / points, l / kFiner) + weft;
             if (warp >= 0 && (weft < 0 || warp_top > weft_top))

@@ -58,6 +58,11 @@ double YarnSection::area() const { return 4 * half_flat * radius + kPi * radius 
 
 double YarnSection::perimeter() const { return 4 * half_flat + 2 * kPi * radius; }
 
+double YarnSection::half_thickness(double across) const {
+    const double beyond = std::max(0.0, std::abs(across) - half_flat);
+    return beyond > radius ? -1 : std::sqrt(radius * radius - beyond * beyond);
+}
+
 FilamentPacking pack_filaments(const YarnSection &section, int count, double twist_per_m) {
     constexpr double kShrink = 0.998;
     double r = section.radius;

@@ -20,6 +20,8 @@ struct YarnSection {
     double half_width() const { return half_flat + radius; }
     double area() const;
     double perimeter() const;
+    /// Half the thickness at a distance from the axis; below 0 outside the section.
+    double half_thickness(double across) const;
 };
 
 /// A ring of filaments, evenly filled: the centres are those of an outline.
