@@ -89,6 +89,22 @@ TEST_F(FabricFile, YarnsAreReadBackAsWritten) {
     }
 }
 
+TEST_F(FabricFile, AWeaveIsReadBackAsWritten) {
+    Fabric fabric{.name = "woven", .specular = YarnLobes{}};
+    for (const ClothWeave &weave :
+         {ClothWeave{.preset = "polyester taffeta"}, ClothWeave{.file = "dupion.weave.toml",
+                                                     .irregularity = {.thickness = 0.125,
+                                                                     .filament = 0.0625,
+                                                                     .slubs_per_m = 12,
+                                                                     .slub_length = 0.03125,
+                                                                     .slub_gain = 1.5,
+                                                                     .seed = 7}}}) {
+        fabric.weave = weave;
+        write_fabric(fabric, file("w.fabric.toml"));
+        EXPECT_EQ(read_fabric(file("w.fabric.toml")).weave, weave);
+    }
+}
+
 TEST_F(FabricFile, SymmetryIsKept) {
     for (const Cloth &cloth : {satin_cloth(), twisted_cloth(), leaning_cloth()}) {
         Fabric fabric{.name = "cloth"};
@@ -164,6 +180,14 @@ TEST_F(FabricFile, BadOnesAreRefusedWithLineAndColumn) {
               "view 1"},
              {kStart + "[views]\n", ":1:1", "'symmetry' is missing"},
              {kStart + "[smoothness]\nweft_support = 1\n", ":3:1", "missing"},
+             {kStart + "[weave]\n", ":3:1", "no weave"},
+             {kStart + "[weave]\npreset = \"a\"\nfile = \"b\"\n", ":3:1", "two weaves"},
+             {kStart + "[weave]\npreset = \"a\"\n[irregularity]\nthickness = 2\n", ":6:13",
+              "thickness"},
+             {kStart + "[irregularity]\nthickness = 0.1\n", ":3:1", "without [weave]"},
+             {kStart + "[weave]\npreset = \"a\"\n[irregularity]\nslubs_per_m = 50\n"
+                       "slub_length_m = 0.05\n",
+              ":5:1", "slub_length"},
              {kStart + "[[", ":3:3", ""},
          }) {
         const auto problems = problems_of(read_it, file("f.fabric.toml", bad.text));

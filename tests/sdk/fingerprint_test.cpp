@@ -144,6 +144,9 @@ Scene full_scene() {
     scene.fabrics[0].colours.weft_tint = Spectrum::constant(0.5);
     scene.fabrics[0].keys["instrument"] = "made up";
     scene.fabrics[0].spare = {GgxFacets{}};
+    scene.fabrics[0].weave = ClothWeave{
+        .preset = "plain",
+        .map = {.repeat = {1, 1}, .size = {1, 1}, .threads = {1, 1}, .place = {WeavePlace{}}}};
     YarnLobes lobes;
     lobes.surface[0][24] = 0.5;
     const ReflectanceTable table = paper_table(satin_cloth(), 30, 90);

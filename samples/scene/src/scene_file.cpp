@@ -11,6 +11,7 @@
 #include "scene_meshes.h"
 #include "scene_reader.h"
 #include "studio_stage.h"
+#include "tsuya/scene/read_cloth.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
@@ -170,7 +171,7 @@ struct SceneBuilder {
         std::map<std::filesystem::path, Fabric> files{{{}, {}}};
         for (const FabricEntry &entry : file.fabrics) {
             if (!files.contains(entry.file))
-                files[entry.file] = read_fabric(entry.file, progress);
+                files[entry.file] = read_cloth(entry.file, progress);
             scene.fabrics.push_back(as_entered(files[entry.file], entry, file.path.string()));
         }
         add_pictures(file.patterns, file.opacities, scene);

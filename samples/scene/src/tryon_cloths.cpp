@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tsuya/scene/read_cloth.h"
+
 namespace tsuya::scene {
 
 Cloths::Cloths(const TryOn &job, const Progress &progress) {
@@ -11,12 +13,12 @@ Cloths::Cloths(const TryOn &job, const Progress &progress) {
         const auto known = std::find(files_.begin(), files_.end(), file);
         if (known == files_.end()) {
             files_.push_back(file);
-            fabrics.push_back(read_fabric(file, progress));
+            fabrics.push_back(read_cloth(file, progress));
             return files_.size() - 1;
         }
         return static_cast<std::size_t>(known - files_.begin());
     };
-    fabrics.push_back(read_fabric(job.fabric, progress));
+    fabrics.push_back(read_cloth(job.fabric, progress));
     files_.emplace_back(); // dyed for each render, so that no panel shares it
     if (const auto behind = index(job.back))
         back = FabricIndex{static_cast<std::uint32_t>(*behind)};

@@ -179,6 +179,9 @@ void check_fabric(const Fabric &fabric, const std::string &where) {
 }
 
 std::vector<Problem> fabric_warnings(const Fabric &fabric, const std::string &where) {
+    if (fabric.weave && !std::visit(TellsYarnsApart{}, fabric.specular))
+        return {{"the model '" + std::string(model_of(fabric)) + "' shows no weave",
+                 where + ".weave", "expected the model 'yarn', or no weave"}};
     const auto *const tabulated = std::get_if<TabulatedSpecular>(&fabric.specular);
     if (!tabulated)
         return {};

@@ -95,6 +95,36 @@ struct FieldReader {
                                 " not below 0, for every 2 degrees from -48 to 48");
     }
     void operator()(const Field &, FabricColours &colours) const { each_field(*this, colours); }
+    void operator()(const Field &field, std::int64_t &value) const {
+        value =
+            section.integer(field.key, static_cast<int>(field.low), static_cast<int>(field.high))
+                .value_or(static_cast<int>(value));
+    }
+    void operator()(const Field &field, Irregularity &irregularity) const {
+        if (const auto inner = section.section(field.key))
+            each_field(FieldReader{*inner}, irregularity);
+    }
+    void operator()(const Field &field, std::optional<ClothWeave> &weave) const {
+        const auto inner = section.section(field.key);
+        if (!inner) {
+            if (section.has("irregularity"))
+                section.problem("irregularity", "[irregularity] stands without [weave]",
+                                "expected [weave], or no such section");
+            return;
+        }
+        weave.emplace();
+        weave->preset = inner->text("preset").value_or("");
+        weave->file = inner->text("file").value_or("");
+        if (weave->preset.empty() == weave->file.empty())
+            inner->problem("", weave->file.empty() ? "no weave is named" : "two weaves are named",
+                           "expected preset or file");
+        (*this)({.key = "irregularity"}, weave->irregularity);
+        try {
+            check_irregularity(weave->irregularity, "");
+        } catch (const Error &error) {
+            section.problem("irregularity", error);
+        }
+    }
     // Read by SpecularReader: what they are depends on each other
     void operator()(const Field &, Specular &) const {}
     void operator()(const Field &, std::vector<Specular> &) const {}
@@ -265,6 +295,21 @@ struct FieldWriter {
     void operator()(const Field &field, const std::vector<double> &values) const {
         write_numbers(out, field.key, values);
     }
+    void operator()(const Field &field, std::int64_t value) const {
+        if (field.written)
+            out << field.key << " = " << value << "\n";
+    }
+    void operator()(const Field &field, const std::string &value) const {
+        if (field.written)
+            out << field.key << " = " << quoted(value) << "\n";
+    }
+    void operator()(const Field &field, const Irregularity &irregularity) const {
+        if (irregularity != Irregularity{}) {
+            out << "\n[" << field.key << "]\n";
+            each_field(*this, irregularity);
+        }
+    }
+    void operator()(const Field &, const WeaveMap &) const {} // made by who reads
 };
 
 template <class T> void write_section(std::ostream &out, std::string_view key, const T &fields) {
@@ -316,6 +361,10 @@ class FabricWriter {
             keys_ << field.key << " = " << *value << "\n";
     }
     void operator()(const Field &, const FabricColours &colours) { each_field(*this, colours); }
+    void operator()(const Field &field, const std::optional<ClothWeave> &weave) {
+        if (weave)
+            write_section(sections_, field.key, *weave);
+    }
     void operator()(const Field &, const Specular &) {} // see write_specular
     void operator()(const Field &, const std::vector<Specular> &) {}
 

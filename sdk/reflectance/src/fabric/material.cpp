@@ -137,7 +137,25 @@ Material resolve(const Fabric &fabric, const std::string &where, ModelTables &ta
                       .weft_tint = fabric.colours.weft(),
                       .warp_tint = fabric.colours.warp()};
     add_colours(fabric, material, tables, progress);
+    const auto *const yarns = material.specular ? material.specular->get_if<YarnBrdf>() : nullptr;
+    if (yarns && fabric.weave && fabric.weave->has_map())
+        material.near =
+            std::make_shared<const NearYarn>(yarns->lobes(), body_roughness(yarns->lobes()),
+                                             fabric.weave->map, fabric.weave->irregularity);
     return material;
+}
+
+std::vector<Problem> weave_warnings(const Material &material, const std::string &where) {
+    constexpr double kMost = 1.2, kFullCover = kPi / 2;
+    std::vector<Problem> warnings;
+    for (std::size_t axis = 0; material.near && axis < 2; ++axis)
+        if (const double covers = material.near->crowding(axis) / kFullCover; covers > kMost)
+            warnings.push_back(
+                {std::string("the weave shows ") + (axis == 0 ? "weft" : "warp") +
+                     " where its filaments would have to lie " +
+                     std::to_string(covers).substr(0, 4) + " deep to reflect what was fitted",
+                 where + ".weave", "expected the weave of the cloth that was measured"});
+    return warnings;
 }
 
 float mean_passed(const Brdf &brdf) {

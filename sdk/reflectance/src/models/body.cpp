@@ -73,12 +73,15 @@ struct Part {
 
 } // namespace
 
+double body_roughness(const YarnLobes &lobes) {
+    return std::max(kWidening * lobes.roughness, kLeastRoughness);
+}
+
 BodyCore::BodyCore(const YarnLobes &lobes,
                    const std::function<float(const glm::vec3 &)> &surface_albedo,
                    const Progress &progress)
-    : facets_(lobes, std::max(kWidening * lobes.roughness, kLeastRoughness)),
-      cones_(lobes, kConeWidth * std::max(kWidening * lobes.roughness, kLeastRoughness),
-             about_yarn) {
+    : facets_(lobes, body_roughness(lobes)),
+      cones_(lobes, kConeWidth * body_roughness(lobes), about_yarn) {
     close_energy(surface_albedo, progress);
     by_cosine_ = kByCosine;
     by_cones_ = kByCones;

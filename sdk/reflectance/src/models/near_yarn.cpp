@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kWindow = 1.0 / 12; // of the places of a system, over which a slope is spread
 constexpr double kNearTo = 0.5;      // crossings: a footprint below is all near
-constexpr double kFarFrom = 2;       // repeats: a footprint above is all far
 constexpr double kLeast = 1e-6;      // of the peak of a lobe, where there are no loose filaments
 constexpr float kMostVisible = 2;    // brightness of what is lit in a pit over the mean
 constexpr float kMostGain = 16;      // keeps the rounding of small shares out of the mean
@@ -65,7 +64,7 @@ NearYarn::NearYarn(const YarnLobes &lobes, double body_roughness, const WeaveMap
     per_thread_ = size_ / map.threads;
     const glm::dvec2 spacing = map.spacing();
     near_to_ = static_cast<float>(kNearTo * std::min(spacing.x, spacing.y));
-    far_from_ = static_cast<float>(kFarFrom * std::min(map.repeat.x, map.repeat.y));
+    far_from_ = static_cast<float>(kFarFromRepeats * std::min(map.repeat.x, map.repeat.y));
     for (int k = 0; k < kYarnSlopes; ++k) {
         sine_[static_cast<std::size_t>(k)] = static_cast<float>(std::sin(yarn_slope(k)));
         cosine_[static_cast<std::size_t>(k)] = static_cast<float>(std::cos(yarn_slope(k)));

@@ -72,6 +72,10 @@ class BodyCore {
     AlbedoTable albedo_{}; ///< 1 - E but for what the iteration leaves
 };
 
+/// Standard deviation of the slopes that light shows which was inside filaments of these lobes: it
+/// is more widely spread than the highlight.
+double body_roughness(const YarnLobes &lobes);
+
 extern template class Model<BodyCore>;
 /// BodyCore as a model, see brdf_core.h.
 using BodyBrdf = Model<BodyCore>;

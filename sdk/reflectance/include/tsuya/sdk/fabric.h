@@ -20,9 +20,11 @@
 #include "tsuya/sdk/bard.h"
 #include "tsuya/sdk/body.h"
 #include "tsuya/sdk/brdf.h"
+#include "tsuya/sdk/cloth_weave.h"
 #include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/lustre.h"
+#include "tsuya/sdk/near_yarn.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/spectrum.h"
 #include "tsuya/sdk/yarn_lobes.h"
@@ -110,6 +112,8 @@ struct Fabric {
     /// fitted to, facets to compare with. Not rendered; `with_model` makes it the specular part.
     std::vector<Specular> spare{};
     FabricColours colours{};
+    /// For where it is seen from near; for specular parts made of yarns, others do not look at it.
+    std::optional<ClothWeave> weave{};
 
     bool operator==(const Fabric &) const = default;
 };
@@ -156,7 +160,8 @@ double f0_of(const CarriedViews &views);
 void check_fabric(const Fabric &fabric, const std::string &where);
 
 /// What is allowed and probably not meant, each with its place below `where`: a table of which
-/// likely_symmetry knows better, that the model `tabulated` would carry on to light from all sides.
+/// likely_symmetry knows better, that the model `tabulated` would carry on to light from all sides;
+/// a weave below a model that shows none.
 std::vector<Problem> fabric_warnings(const Fabric &fabric, const std::string &where);
 
 /// What the models of a specular part tabulate, shared by all materials that have it: no one of
@@ -198,6 +203,8 @@ struct Material {
     std::vector<glm::vec2> of_dye{};
     double weft_share = 0.5; ///< of the weft in what both systems show, see YarnLobes
     double most_dye = 1;     ///< a dye of a greater reflectance looks the same; above 0
+    /// Of a fabric with a weave whose map is made, and yarns; null: seen from far alone
+    std::shared_ptr<const NearYarn> near{};
 
     bool has_diffuse() const;  ///< Lambertian: dye or transmittance
     bool has_specular() const; ///< with a colour
@@ -210,6 +217,10 @@ Material resolve(const Fabric &fabric, const std::string &where, const Progress 
 /// cloth in other colours takes no time, and adds those that it makes.
 Material resolve(const Fabric &fabric, const std::string &where, ModelTables &tables,
                  const Progress &progress = {});
+
+/// Warns, with its place below `where`, of a material whose weave does not explain its filaments: a
+/// system that would need more than 1.2 full covers of them where it lies on the face.
+std::vector<Problem> weave_warnings(const Material &material, const std::string &where);
 
 /// What a model lets through to the Lambertian part below it: the mean of 1 - albedo over the
 /// cosine-weighted hemisphere, at least 0.001 where the model reflects all. In 0.001..1.

@@ -27,6 +27,9 @@
 
 namespace tsuya {
 
+/// A footprint of as many repeats of a weave, or more, sees the far field alone.
+inline constexpr double kFarFromRepeats = 2;
+
 /// A place of the cloth, made ready for pairs of directions.
 struct NearPlace {
     /// Slopes, with room for whole vectors

@@ -111,13 +111,60 @@ template <class F, detail::MaybeConst<TabulatedSpecular> T> void each_field(F &&
     f(detail::Field{.key = "file", .in_picture = false}, file);
 }
 
+template <class F, detail::MaybeConst<Irregularity> T> void each_field(F &&f, T &irregularity) {
+    auto &[thickness, filament, slubs_per_m, slub_length, slub_gain, seed] = irregularity;
+    const Irregularity usual;
+    const bool has_slubs = slubs_per_m > 0;
+    f(detail::Field{.key = "thickness", .low = 0, .high = 0.3, .written = thickness > 0},
+      thickness);
+    f(
+        detail::Field{
+            .key = "filament", .low = 0, .high = 0.3, .written = filament != usual.filament},
+        filament);
+    f(detail::Field{.key = "slubs_per_m", .low = 0, .high = 100, .written = has_slubs},
+      slubs_per_m);
+    f(detail::Field{.key = "slub_length_m", .low = 0.001, .high = 1, .written = has_slubs},
+      slub_length);
+    f(detail::Field{.key = "slub_gain", .low = 0, .high = 5, .written = has_slubs}, slub_gain);
+    f(detail::Field{.key = "seed", .low = 0, .high = 1e9, .written = seed != usual.seed}, seed);
+}
+
+template <class F, detail::MaybeConst<WeavePlace> T> void each_field(F &&f, T &place) {
+    auto &[system, thread, slope, along, across, height] = place;
+    f(detail::Field{"system"}, system);
+    f(detail::Field{"thread"}, thread);
+    f(detail::Field{"slope"}, slope);
+    f(detail::Field{"along"}, along);
+    f(detail::Field{"across"}, across);
+    f(detail::Field{"height"}, height);
+}
+
+template <class F, detail::MaybeConst<WeaveMap> T> void each_field(F &&f, T &map) {
+    auto &[repeat, size, threads, filaments, place] = map;
+    f(detail::Field{"repeat"}, repeat);
+    f(detail::Field{"size"}, size);
+    f(detail::Field{"threads"}, threads);
+    f(detail::Field{"filaments"}, filaments);
+    f(detail::Field{"place"}, place);
+}
+
+/// The map is what is seen, wherever it came from.
+template <class F, detail::MaybeConst<ClothWeave> T> void each_field(F &&f, T &weave) {
+    auto &[preset, file, irregularity, map] = weave;
+    f(detail::Field{.key = "preset", .written = !preset.empty(), .in_picture = false}, preset);
+    f(detail::Field{.key = "file", .written = !file.empty(), .in_picture = false}, file);
+    f(detail::Field{"irregularity"}, irregularity);
+    f(detail::Field{"map"}, map);
+}
+
 template <class F, detail::MaybeConst<Fabric> T> void each_field(F &&f, T &fabric) {
-    auto &[name, keys, specular, spare, colours] = fabric;
+    auto &[name, keys, specular, spare, colours, weave] = fabric;
     f(detail::Field{.key = "name", .required = true, .in_picture = false}, name);
     f(detail::Field{.key = "provenance", .in_picture = false}, keys);
     f(detail::Field{"specular"}, specular);
     f(detail::Field{.key = "spare", .in_picture = false}, spare);
     f(detail::Field{"colours"}, colours);
+    f(detail::Field{"weave"}, weave);
 }
 
 } // namespace tsuya
