@@ -365,7 +365,10 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
         const SurfacePoint point = scene_.point(path.direction, hit);
         if (!point.is_finite())
             return spoil(path.radiance);
-        const Vertex vertex(scene_, point, path.direction, path.wide);
+        std::optional<NearPlace> near;
+        if (path.vertex == 0)
+            near = scene_.near_place(path.direction, hit, point);
+        const Vertex vertex(scene_, point, path.direction, path.wide, near ? &*near : nullptr);
         std::optional<Vertex> plain;
         if (path.tells && path.wide)
             plain.emplace(scene_, point, path.direction, false);

@@ -1,6 +1,10 @@
 #include "tsuya/sdk/plan.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
 
 #include "aov.h"
 #include "dye_channels.h"
@@ -25,6 +29,16 @@ bool is_thing(const Light &light) {
                 return false;
         },
         light);
+}
+
+// Where a pixel sees two repeats: from there on a weave is seen from far alone.
+double near_within(const WeaveMap &map, const Camera &camera) {
+    const double footprint = kFarFromRepeats * std::min(map.repeat.x, map.repeat.y);
+    if (camera.orthographic_height)
+        return *camera.orthographic_height / camera.height < footprint
+                   ? std::numeric_limits<double>::infinity()
+                   : 0;
+    return footprint * camera.height / (2 * std::tan(0.5 * camera.vertical_angle));
 }
 
 } // namespace
@@ -56,6 +70,8 @@ Plan plan(const Scene &scene, const RenderSettings &settings) {
         skip(!diffuse, "no dye in fabric '" + fabric.name + "'", "the diffuse part at every point");
         skip(!transmits, "no transmittance of fabric '" + fabric.name + "'",
              "shadow rays to lights behind it");
+        if (specular && fabric.weave && fabric.weave->has_map())
+            p.near_cloths.push_back({fabric.name, near_within(fabric.weave->map, scene.camera)});
         p.any_specular |= specular;
         p.any_diffuse |= diffuse;
     }
@@ -101,6 +117,17 @@ std::string channels_text(const Plan &p) {
     return text + ": every dye and lamp afterwards\n";
 }
 
+std::string near_text(const NearCloth &cloth) {
+    if (!(cloth.within > 0))
+        return "weave: '" + cloth.fabric + "' is seen from far alone\n";
+    if (std::isinf(cloth.within))
+        return "weave: the yarns of '" + cloth.fabric + "' appear\n";
+    std::ostringstream text;
+    text << "weave: the yarns of '" << cloth.fabric << "' appear nearer than "
+         << std::setprecision(2) << cloth.within << " m\n";
+    return text.str();
+}
+
 } // namespace
 
 std::string explain(const Plan &p) {
@@ -109,6 +136,8 @@ std::string explain(const Plan &p) {
             (p.environment ? ", environment" : "") + "\n";
     text += std::string("parts:") + (p.any_diffuse ? " diffuse" : "") +
             (p.any_specular ? " specular" : "") + "\n";
+    for (const NearCloth &cloth : p.near_cloths)
+        text += near_text(cloth);
     if (p.widens)
         text += "lobes: wider after diffuse scattering\n";
     for (const Skip &s : p.skips)

@@ -121,6 +121,7 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     const Clock::time_point start = Clock::now();
     double build_seconds = 0;
     std::vector<Phase> phases;
+    std::vector<Problem> of_cloths;
     PreparedScene own;
     PreparedScene &prepared = kept ? *kept : own;
     const PreparedUse before = prepared.use();
@@ -141,6 +142,7 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
         build_seconds = seconds_since(start);
         film.most_dye = traced.most_dye;
         phases = traced.phases;
+        of_cloths = traced.warnings;
         const PhaseClock of_trace;
         trace_passes(traced, settings, film, keeper, progress);
         phases.push_back(of_trace.end("trace"));
@@ -168,6 +170,7 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     for (const Fabric &fabric : scene.fabrics)
         for (Problem &warning : fabric_warnings(fabric, "fabrics." + fabric.name))
             result.warnings.push_back(std::move(warning));
+    result.warnings.insert(result.warnings.end(), of_cloths.begin(), of_cloths.end());
     if (!interrupted && result.stats.error_reached_share < 1) {
         std::ostringstream what;
         what << std::setprecision(2) << 100 * (1 - result.stats.error_reached_share)

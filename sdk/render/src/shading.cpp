@@ -1,6 +1,7 @@
 #include "shading.h"
 
 #include <cmath>
+#include <utility>
 
 #include "tsuya/sdk/angle.h"
 
@@ -20,6 +21,7 @@ Shading::Shading(const Material &material, const MeanColours &means, bool keep_i
       transmitted_share_(
           means.transmittance > 0 ? means.transmittance / (means.dye + means.transmittance) : 0) {
     body_ = material.body;
+    near_ = material.near;
     if (!material.specular || !(material.has_specular() || keep_idle_parts))
         return;
     specular_ = material.specular;
@@ -62,14 +64,34 @@ float Shading::diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) con
     return couples_ ? f * view.diffuse_scale * (1 - albedo(to_light)) : f;
 }
 
-void Shading::add_specular(Response &response, float all, float weft) const {
+// What is scattered diffusely to the side of the light.
+float Shading::even_cos(const glm::vec3 &to_light, const ViewTerms &view) const {
+    const float f = diffuse_cos(to_light, view);
+    return view.near ? f * near_->diffuse(*view.near) : f;
+}
+
+void Shading::add_specular(Response &response, glm::vec2 all_and_weft, const glm::vec3 &to_light,
+                           const glm::vec3 &to_viewer, const ViewTerms &view) const {
+    auto [all, weft] = std::pair(all_and_weft.x, all_and_weft.y);
+    if (view.near) {
+        const glm::vec2 here = near_->surface(*view.near, to_light, to_viewer);
+        const float warp = all - weft;
+        weft *= here.x;
+        all = weft + warp * here.y;
+    }
     response.weft = two_tints_ ? weft : 0.0f;
     response.warp = all - response.weft;
 }
 
 void Shading::add_body(Weighed &weighed, const glm::vec3 &to_light, const glm::vec3 &to_viewer,
                        const ViewTerms &view) const {
-    const WeighedLight b = body_->weigh(to_light, to_viewer);
+    WeighedLight b = body_->weigh(to_light, to_viewer);
+    if (view.near) {
+        const glm::vec2 here = near_->body(*view.near, to_light, to_viewer);
+        const float warp = b.f_cos - b.weft;
+        b.weft *= here.x;
+        b.f_cos = b.weft + warp * here.y;
+    }
     weighed.f_cos.weft_body = two_dyes_ ? b.weft : 0.0f;
     weighed.f_cos.warp_body = b.f_cos - weighed.f_cos.weft_body;
     weighed.pdf += view.body_share * b.pdf_per_sr;
@@ -89,12 +111,12 @@ Weighed Shading::weigh(const glm::vec3 &to_light, const glm::vec3 &to_viewer,
     if (!(to_light.z > 0))
         return w;
     if (diffuse_) {
-        w.f_cos.diffuse = diffuse_cos(to_light, view);
+        w.f_cos.diffuse = even_cos(to_light, view);
         w.pdf = diffuse_share * (1 - transmitted_share_) * kLambert.pdf(to_light, to_viewer);
     }
     if (specular_) {
         const WeighedLight s = specular_->weigh(to_light, to_viewer);
-        add_specular(w.f_cos, s.f_cos, s.weft);
+        add_specular(w.f_cos, {s.f_cos, s.weft}, to_light, to_viewer, view);
         w.pdf += view.specular_share * s.pdf_per_sr;
     }
     if (body_)
@@ -114,10 +136,11 @@ std::optional<LightSample> Shading::sample(const glm::vec3 &to_viewer, const Vie
         LightSample light{
             sampled->direction, {{}, view.specular_share * sampled->pdf_per_sr}, true};
         Weighed &w = light.weighed;
-        add_specular(w.f_cos, sampled->weight * sampled->pdf_per_sr,
-                     sampled->weft * sampled->pdf_per_sr);
+        add_specular(w.f_cos,
+                     {sampled->weight * sampled->pdf_per_sr, sampled->weft * sampled->pdf_per_sr},
+                     light.to_light, to_viewer, view);
         if (diffuse_) {
-            w.f_cos.diffuse = diffuse_cos(light.to_light, view);
+            w.f_cos.diffuse = even_cos(light.to_light, view);
             w.pdf += view.diffuse_share() * (1 - transmitted_share_) *
                      kLambert.pdf(light.to_light, to_viewer);
         }

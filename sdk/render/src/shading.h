@@ -53,9 +53,10 @@ struct MeanColours {
 
 // What is the same for all lights of one view.
 struct ViewTerms {
-    float diffuse_scale = 1;  // (1 - albedo(V)) / (1 - mean albedo)
-    float specular_share = 0; // probability of sampling the specular part
-    float body_share = 0;     // and the body
+    float diffuse_scale = 1;         // (1 - albedo(V)) / (1 - mean albedo)
+    float specular_share = 0;        // probability of sampling the specular part
+    float body_share = 0;            // and the body
+    const NearPlace *near = nullptr; // of the weave; null: the far field
 
     float diffuse_share() const { return 1 - specular_share - body_share; }
 };
@@ -69,6 +70,8 @@ class Shading {
   public:
     Shading(const Material &material, const MeanColours &means, bool keep_idle_parts);
 
+    // The near field of the cloth; null where it has none.
+    const NearYarn *near() const { return near_.get(); }
     // Light from behind is scattered to the viewer.
     bool transmits() const { return transmitted_share_ > 0; }
     ViewTerms view_terms(const glm::vec3 &to_viewer) const;
@@ -80,13 +83,16 @@ class Shading {
 
   private:
     float diffuse_cos(const glm::vec3 &to_light, const ViewTerms &view) const;
-    void add_specular(Response &response, float all, float weft) const;
+    float even_cos(const glm::vec3 &to_light, const ViewTerms &view) const;
+    void add_specular(Response &response, glm::vec2 all_and_weft, const glm::vec3 &to_light,
+                      const glm::vec3 &to_viewer, const ViewTerms &view) const;
     void add_body(Weighed &weighed, const glm::vec3 &to_light, const glm::vec3 &to_viewer,
                   const ViewTerms &view) const;
     void share_samples(const glm::vec3 &to_viewer, ViewTerms &view) const;
     float albedo(const glm::vec3 &direction) const;
 
     std::shared_ptr<const Brdf> specular_; // of the material
+    std::shared_ptr<const NearYarn> near_;
     std::shared_ptr<const BodyBrdf> body_; // the coloured part that follows the yarns
     bool diffuse_, couples_;
     bool two_tints_, two_dyes_;

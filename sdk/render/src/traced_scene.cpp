@@ -190,6 +190,8 @@ void TracedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &bas
         if (const auto wide =
                 plan.widens && !idle ? materials.widened(shown, material, progress) : std::nullopt)
             wide_shading.back().emplace(*wide, means, keep_idle_parts);
+        for (Problem &warning : weave_warnings(material, where))
+            warnings.push_back(std::move(warning));
         of_dye_.push_back(material.of_dye);
         weft_share_.push_back(static_cast<float>(material.weft_share));
     }
@@ -310,6 +312,26 @@ glm::vec2 TracedScene::uv_at(const Hit &hit) const {
     const glm::uvec3 t = surface.triangle[hit.triangle];
     return hit.barycentric.x * surface.uv[t.x] + hit.barycentric.y * surface.uv[t.y] +
            hit.barycentric.z * surface.uv[t.z];
+}
+
+// The place lies along the point's frame: from behind the weft runs the other way, and on the
+// cloth's own back the systems change places.
+std::optional<NearPlace> TracedScene::near_place(const glm::vec3 &direction, const Hit &hit,
+                                                 const SurfacePoint &point) const {
+    constexpr float kLeastFacing = 0.05f; // cosine by which a footprint is stretched
+    const NearYarn *const near = shading[point.cloth].near();
+    const Surface &surface = surface_of(hit);
+    if (!near || surface.uv.empty() || surface.warp.empty())
+        return std::nullopt;
+    const float facing = std::max(-glm::dot(direction, point.geometric_normal), kLeastFacing);
+    const float footprint = camera.pixel_width(hit.distance) / std::sqrt(facing);
+    if (!(footprint < near->far_from()))
+        return std::nullopt;
+    const glm::dvec2 uv = uv_at(hit);
+    if (point.colours != point.cloth)
+        return near->at({uv.y, uv.x}, footprint);
+    const bool behind = glm::dot(hit.face_normal, direction) > 0;
+    return near->at({behind ? -uv.x : uv.x, uv.y}, footprint);
 }
 
 glm::vec3 TracedScene::behind(const glm::vec3 &direction, const Hit &hit) const {

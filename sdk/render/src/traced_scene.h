@@ -15,6 +15,7 @@
 #include "lights.h"
 #include "prepared_print.h"
 #include "shading.h"
+#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/frame.h"
 #include "tsuya/sdk/phase.h"
 #include "tsuya/sdk/plan.h"
@@ -61,6 +62,7 @@ struct TracedScene {
     std::vector<Phase> phases{}; // of the making
     // What the cloths can show of each dye of the plan at most
     std::array<double, kMostDyes> most_dye{1, 1};
+    std::vector<Problem> warnings{}; // of the cloths
     CameraRays camera;
     std::vector<Shading> shading{}; // per cloth
     // The same where light was scattered diffusely before; empty where the plan does not widen, or
@@ -80,6 +82,9 @@ struct TracedScene {
     }
     // The point that a ray of this direction hit.
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
+    // What the camera sees of a weave at the point; empty where its yarns are not told apart.
+    std::optional<NearPlace> near_place(const glm::vec3 &direction, const Hit &hit,
+                                        const SurfacePoint &point) const;
     // Of the cloth, metres; 0 where the surface has none.
     glm::vec2 uv_at(const Hit &hit) const;
     // Along the weft, unit; 0 where the surface has no yarns.

@@ -15,10 +15,13 @@ class Vertex {
   public:
     // \param direction of the ray that hit the point
     // \param wide light was scattered diffusely on the path before
+    // \param near where yarns are told apart; else null
     Vertex(const TracedScene &scene, const SurfacePoint &point, const glm::vec3 &direction,
-           bool wide)
+           bool wide, const NearPlace *near = nullptr)
         : point_(point), shading_(scene.shading_of(point.cloth, wide)),
-          to_viewer_(point.frame.to_local(-direction)), view_(shading_.view_terms(to_viewer_)) {}
+          to_viewer_(point.frame.to_local(-direction)), view_(shading_.view_terms(to_viewer_)) {
+        view_.near = near;
+    }
 
     const glm::vec3 &position() const { return point_.position; }
     Receiver receiver() const {

@@ -19,6 +19,12 @@ struct Skip {
     std::string saves;
 };
 
+/// A cloth whose yarns the camera may tell apart.
+struct NearCloth {
+    std::string fabric;
+    double within = 0; ///< metres from the camera; infinite or 0 for parallel rays
+};
+
 /// The cheapest exact way through a scene.
 struct Plan {
     int max_bounces = 0;      ///< 0 where no surface scatters light on
@@ -29,6 +35,7 @@ struct Plan {
     bool widens = false;          ///< bounces meet wider lobes, see RenderSettings
     bool short_last_rays = false; ///< the ray after a path's last vertex looks for lights alone
     std::vector<std::size_t> lights{}; ///< into Scene::lights: those that shine or are things
+    std::vector<NearCloth> near_cloths{};
     std::vector<Skip> skips{};
     int channels = 0; ///< of the render; RenderSettings::channels but for depths of dye
     /// The dyes whose depths are the channels; none: channels are wavelengths. Where a range ends
