@@ -19,6 +19,18 @@ std::uint64_t pixels_of(const Tile &t) {
     return static_cast<std::uint64_t>(t.x1 - t.x0) * static_cast<std::uint64_t>(t.y1 - t.y0);
 }
 
+bool has_depths(const Scene &scene) {
+    return !scene.open_dyes.empty() && !dye_variables(scene).empty();
+}
+
+// Half the difference of the means of two halves. \param mean of all samples
+// \param less sum of those of even index less the sum of the others
+double error_of_halves(std::int32_t samples, double mean, double less) {
+    const std::int32_t count_odd = samples / 2;
+    const double n = samples, odd = count_odd, even = n - odd;
+    return 0.25 * std::abs((n * mean + less) / even - (n * mean - less) / odd);
+}
+
 } // namespace
 
 std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &settings) {
@@ -30,6 +42,8 @@ std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &setti
         scene.light_groups.size() * static_cast<std::uint64_t>(settings.channels);
     // In the film, which has the difference too, and in the picture that is made of it
     std::uint64_t floats = 2 * (transport + aovs) + 1;
+    if (has_depths(scene))
+        floats += kJudgedDepths;
     if (settings.denoise)
         floats += transport + kFeatures + GuidePlanes::kPlanes;
     return floats * sizeof(float) * static_cast<std::uint64_t>(scene.camera.width) *
@@ -43,6 +57,8 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     sum.resize(pixels * groups * static_cast<std::size_t>(channels));
     difference.resize(pixels);
+    if (has_depths(scene))
+        depth_difference.resize(kJudgedDepths * pixels);
     if (settings.denoise) {
         odd_sum.resize(sum.size());
         features.resize(pixels * kFeatures);
@@ -62,18 +78,30 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
     }
 }
 
-Film::TileError Film::tile_error(std::size_t t) const {
+Film::TileError Film::tile_error(std::size_t t, std::size_t judged) const {
     TileError result;
     for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
         for (int x = tiles[t].x0; x < tiles[t].x1; ++x) {
             if (!is_split(x, y))
                 continue;
-            const double mean = pixel_mean(x, y, done[t]);
-            result.errors += pixel_error(x, y, done[t], mean);
+            const double mean = judged_mean(x, y, done[t], judged);
+            const double less = depth_difference.empty()
+                                    ? difference[at(x, y)]
+                                    : depth_difference[kJudgedDepths * at(x, y) + judged];
+            result.errors += error_of_halves(done[t], mean, less);
             result.values += mean;
             ++result.pixels;
         }
     return result;
+}
+
+double Film::judged_mean(int x, int y, std::int32_t samples, std::size_t judged) const {
+    if (depth_difference.empty())
+        return pixel_mean(x, y, samples);
+    double total = 0;
+    for (std::size_t g = 0; g < groups; ++g)
+        total += pixel(x, y)[g * static_cast<std::size_t>(channels) + judged_channel[judged]];
+    return total / static_cast<double>(groups) / samples;
 }
 
 double Film::pixel_mean(int x, int y, std::int32_t samples) const {
@@ -83,44 +111,66 @@ double Film::pixel_mean(int x, int y, std::int32_t samples) const {
 }
 
 double Film::pixel_error(int x, int y, std::int32_t samples, double mean) const {
-    const std::int32_t count_odd = samples / 2;
-    const double n = samples, odd = count_odd, even = n - odd;
-    const double less = difference[at(x, y)];
-    return 0.25 * std::abs((n * mean + less) / even - (n * mean - less) / odd);
+    return error_of_halves(samples, mean, difference[at(x, y)]);
 }
 
 double Film::relative_error(std::size_t t) const {
     if (done[t] < 2)
         return std::numeric_limits<double>::infinity();
-    const TileError e = tile_error(t);
-    const double values = std::max(e.values, dark * e.pixels);
-    return values > 0 ? e.errors / values : 0;
+    double largest = 0;
+    for (std::size_t judged = 0; judged < judged_count(); ++judged) {
+        const TileError e = tile_error(t, judged);
+        const double values = std::max(e.values, dark[judged] * e.pixels);
+        largest = std::max(largest, values > 0 ? e.errors / values : 0);
+    }
+    return largest;
 }
 
 double Film::relative_error() const {
-    TileError total;
-    for (std::size_t t = 0; t < tiles.size(); ++t)
-        if (done[t] > 1) {
-            const TileError e = tile_error(t);
-            total.errors += e.errors;
-            total.values += e.values;
-            total.pixels += e.pixels;
-        }
-    if (total.pixels == 0)
-        return std::numeric_limits<double>::infinity();
-    return total.values > 0 ? total.errors / total.values : 0;
+    double largest = 0;
+    for (std::size_t judged = 0; judged < judged_count(); ++judged) {
+        TileError total;
+        for (std::size_t t = 0; t < tiles.size(); ++t)
+            if (done[t] > 1) {
+                const TileError e = tile_error(t, judged);
+                total.errors += e.errors;
+                total.values += e.values;
+                total.pixels += e.pixels;
+            }
+        if (total.pixels == 0)
+            return std::numeric_limits<double>::infinity();
+        largest = std::max(largest, total.values > 0 ? total.errors / total.values : 0);
+    }
+    return largest;
 }
 
-double Film::bright_value() const {
+double Film::bright_value(std::size_t judged) const {
     std::vector<double> values;
     for (std::size_t t = 0; t < tiles.size(); ++t)
-        if (const TileError e = tile_error(t); e.pixels > 0)
+        if (const TileError e = tile_error(t, judged); e.pixels > 0)
             values.push_back(e.values / e.pixels);
     if (values.empty())
         return 0;
     const auto bright = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 9 / 10);
     std::nth_element(values.begin(), bright, values.end());
     return *bright;
+}
+
+void Film::find_dark() {
+    if (dark == std::array<double, kJudgedDepths>{})
+        for (std::size_t judged = 0; judged < judged_count(); ++judged)
+            dark[judged] = kDark * bright_value(judged);
+}
+
+void Film::set_depths(const DyeDepths &depths) {
+    const auto depth = [](const std::array<double, kMostDyes> &node) {
+        return std::accumulate(node.begin(), node.end(), 0.0);
+    };
+    const auto [darkest, lightest] =
+        std::minmax_element(depths.node.begin(), depths.node.end(),
+                            [&](const auto &a, const auto &b) { return depth(a) < depth(b); });
+    judged_channel = {static_cast<std::uint32_t>(darkest - depths.node.begin()),
+                      static_cast<std::uint32_t>(lightest - depths.node.begin())};
 }
 
 double Film::share_within(double error) const {

@@ -17,6 +17,9 @@ namespace tsuya {
 // Errors count against at least this share of a bright part's value, see Film::bright_value.
 inline constexpr double kDark = 0.05;
 
+// Depths of dye by which errors are judged.
+inline constexpr std::size_t kJudgedDepths = 2;
+
 // What guides the denoiser: normal, warp, albedo in three bands of wavelength, depth, object.
 inline constexpr std::size_t kFeatures = 11;
 
@@ -35,6 +38,10 @@ struct Film {
     std::vector<float> sum{};         // [y][x][group][k]
     // [y][x], of the mean over groups and channels: the samples of even index less the others
     std::vector<float> difference{};
+    // Where channels are depths of dye, [y][x][depth] of the same, for the mean over groups at the
+    // darkest and at the lightest depth; empty elsewhere. A dark dye has relatively more noise, so
+    // it is by these that errors are judged.
+    std::vector<float> depth_difference{};
     // Whether every pixel's samples are split into two independent sequences, so that their
     // difference tells the error. Else one pixel of four is: one sequence has the smaller error.
     bool all_split;
@@ -49,8 +56,10 @@ struct Film {
     std::vector<double> change{};
     std::vector<std::uint64_t> told{};
     // kDark of bright_value after the first pass: what is rendered must not depend on how far
-    // other tiles are. 0 before.
-    double dark = 0;
+    // other tiles are. 0 before. Of the mean over channels, or of each judged depth.
+    std::array<double, kJudgedDepths> dark{};
+    // The channels of the darkest and of the lightest depth; known when cloths are prepared.
+    std::array<std::uint32_t, kJudgedDepths> judged_channel{};
     // What the cloths can show of each dye of the plan at most; known when they are prepared.
     std::array<double, kMostDyes> most_dye{1, 1};
     std::uint64_t not_finite = 0; // samples left out of the sums
@@ -72,12 +81,15 @@ struct Film {
     // Estimate of the mean absolute error of the pixels of a tile over their mean value, or over
     // `dark` where they are darker; infinite before there are two samples. Of pixels that are
     // split, the samples of even and of odd index are independent estimates: half their difference
-    // is distributed as the error of their mean.
+    // is distributed as the error of their mean. Of depths of dye it is the larger one of those
+    // that are judged.
     double relative_error(std::size_t tile) const;
     // The same for the whole picture; infinite where no pixel is split.
     double relative_error() const;
-    // Of a tile: a tenth of them are brighter (not the brightest, which may show a lamp).
-    double bright_value() const;
+    // Sets `dark`, where it is not set.
+    void find_dark();
+    // Sets what the channels are.
+    void set_depths(const DyeDepths &depths);
     // The part of the picture in tiles whose error is at most this.
     double share_within(double error) const;
     // See RenderStats::widening_change.
@@ -103,7 +115,12 @@ struct Film {
     struct TileError {
         double errors = 0, values = 0, pixels = 0;
     };
-    TileError tile_error(std::size_t tile) const;
+    // Means of a pixel by which errors are judged: that over all channels, or those at depths.
+    std::size_t judged_count() const { return depth_difference.empty() ? 1 : kJudgedDepths; }
+    double judged_mean(int x, int y, std::int32_t samples, std::size_t judged) const;
+    TileError tile_error(std::size_t tile, std::size_t judged) const;
+    // Of a tile: a tenth of them are brighter (not the brightest, which may show a lamp).
+    double bright_value(std::size_t judged) const;
 };
 
 // What must be the same for a render to go on: hashes of scene and settings.

@@ -7,7 +7,7 @@
 namespace tsuya {
 namespace {
 
-constexpr const char *kKind = "render 8";
+constexpr const char *kKind = "render 9";
 
 // What is kept of a film, in order: for the writer (a constant film) and the reader.
 template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
@@ -17,9 +17,11 @@ template <class File, class TheFilm> void each_part(File &file, TheFilm &film) {
     file.value(film.all_split);
     file.value(film.dark);
     file.value(film.most_dye);
+    file.value(film.judged_channel);
     file.array(std::span(film.done));
     file.array(std::span(film.sum));
     file.array(std::span(film.difference));
+    file.array(std::span(film.depth_difference));
     file.array(std::span(film.odd_sum));
     file.array(std::span(film.features));
     file.array(std::span(film.change));

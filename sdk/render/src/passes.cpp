@@ -65,8 +65,8 @@ template <int K> class Passes {
             }
             if (from == 0)
                 check_finite();
-            if (stop.relative_error && film_.dark == 0)
-                film_.dark = kDark * film_.bright_value();
+            if (stop.relative_error)
+                film_.find_dark();
             if (stop.seconds && film_.seconds >= *stop.seconds)
                 break;
             reached_ = share_good_enough();
@@ -203,6 +203,8 @@ template <int K> class Passes {
             float *odd = film_.odd_sum.data() + (film_.pixel(x, y) - film_.sum.data());
             for (const Channels<K> &c : radiance)
                 for (std::size_t k = 0; k < K; ++k)
+        if (!film_.depth_difference.empty())
+            add_depths(x, y, sign, radiance);
                     *odd++ += c.v[k];
         }
         return true;
@@ -212,6 +214,17 @@ template <int K> class Passes {
     const RenderSettings &settings_;
     Film &film_;
     FilmKeeper &keeper_;
+    // To what tells the errors at depths of dye.
+    void add_depths(int x, int y, float sign, std::span<const Channels<K>> radiance) {
+        for (std::size_t judged = 0; judged < kJudgedDepths; ++judged) {
+            float sum = 0;
+            for (const Channels<K> &c : radiance)
+                sum += c.v[film_.judged_channel[judged]];
+            film_.depth_difference[kJudgedDepths * film_.at(x, y) + judged] +=
+                sign * sum / static_cast<float>(radiance.size());
+        }
+    }
+
     const Progress &progress_;
     FilmAovs aovs_;
     std::atomic<std::uint64_t> rays_{0}, not_finite_{0};

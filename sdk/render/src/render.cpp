@@ -146,6 +146,8 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
         const PhaseClock of_trace;
         trace_passes(traced, settings, film, keeper, progress);
         phases.push_back(of_trace.end("trace"));
+        if (const auto depths = depths_of(traced.plan.dyes, film.most_dye, settings.channels))
+            film.set_depths(*depths);
     } catch (const Interrupted &) {
         // Stopped while the scene was prepared: the film has what an earlier run left
     }

@@ -26,7 +26,8 @@ struct StopRule {
     int samples_per_pixel = 64; ///< 1 to 65536; at most, where an error is given
     /// Each part of the picture is done when the mean absolute error of its pixels is below this
     /// share of their mean value, or of a twentieth of what a tenth of the parts exceed, where they
-    /// are darker: smooth parts are done first. Above 0, finite.
+    /// are darker: smooth parts are done first. Where channels are depths of dye, both at the
+    /// darkest and at the lightest of them. Above 0, finite.
     std::optional<double> relative_error{};
     /// Of tracing, over all runs that a checkpoint joins; not reproducible. Above 0, finite.
     std::optional<double> seconds{};
@@ -106,8 +107,9 @@ struct RenderStats {
     double seconds = 0;
     double build_seconds = 0; ///< of the BVH and the materials
     /// Estimate of the mean absolute error of the pixels, all groups and channels together, over
-    /// their mean value. Where StopRule::relative_error is given, all pixels tell it, else a
-    /// quarter of them, whose samples are spread a little less evenly: it is somewhat too high
+    /// their mean value; where channels are depths of dye, the larger one of those at the darkest
+    /// and at the lightest depth. Where StopRule::relative_error is given, all pixels tell it, else
+    /// a quarter of them, whose samples are spread a little less evenly: it is somewhat too high
     /// then.
     double relative_error = 0;
     std::optional<double> error_asked{}; ///< StopRule::relative_error
