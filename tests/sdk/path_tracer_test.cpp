@@ -78,7 +78,7 @@ float light_met(const TracedScene &scene, const glm::vec3 &from, const glm::vec3
     return sum;
 }
 
-// A walk whose directions are even over the hemisphere; lights are met, never sampled.
+// A walk whose directions are even over the sphere; lights are met, never sampled.
 float walk(const TracedScene &scene, const CameraRay &ray, int bounces, std::mt19937 &random) {
     std::uniform_real_distribution<float> even(0, 1);
     glm::vec3 origin = ray.origin, direction = ray.direction;
@@ -89,15 +89,16 @@ float walk(const TracedScene &scene, const CameraRay &ray, int bounces, std::mt1
     for (int bounce = 0;; ++bounce) {
         const SurfacePoint point = scene.point(direction, hit);
         const Vertex vertex(scene, point, direction, false);
-        const float z = even(random), turn = 2 * kPiF * even(random);
+        const float z = 2 * even(random) - 1, turn = 2 * kPiF * even(random);
         const float across = std::sqrt(1 - z * z);
-        direction = make_frame(point.geometric_normal)
-                        .to_world({across * std::cos(turn), across * std::sin(turn), z});
+        direction = {across * std::cos(turn), across * std::sin(turn), z};
         const Response f_cos = vertex.weigh(direction).f_cos;
         const Colours &c = scene.colours[point.colours];
-        throughput *= 2 * kPiF *
+        throughput *= 4 * kPiF *
                       (c.dye[0] * f_cos.diffuse + c.weft[0] * f_cos.weft + c.warp[0] * f_cos.warp +
                        c.weft_body[0] * f_cos.weft_body + c.warp_body[0] * f_cos.warp_body);
+        if (!(throughput > 0))
+            return sum;
         origin = vertex.ray_origin(direction);
         const bool found = scene.accelerator.intersect(origin, direction, kFar, hit);
         sum += throughput * light_met(scene, origin, direction, found ? hit.distance : kFar);

@@ -17,6 +17,28 @@ namespace {
 // The shading normal is bent until the viewer is this much above its horizon.
 constexpr float kLeastCosine = 1e-3f;
 
+// Normals of the corners that are farther from the triangle's are those of no surface that bulges
+// over it: beyond 45 degrees the triangle hides what it should let pass.
+constexpr float kLeastCornerCosine = 0.7071f;
+
+// [Hanika] From a point of a triangle to the smooth surface of which the corners have the normals:
+// to the planes through the corners, where they lie above the point, by the weights of the corners.
+// \param side 1, or -1 where the normals are those of the other side
+// \param geometric normal of the triangle on the viewer's side
+glm::vec3 bulge_at(const glm::vec3 &point, const std::array<glm::vec3, 3> &corner,
+                   const std::array<glm::vec3, 3> &normal, float side, const glm::vec3 &barycentric,
+                   const glm::vec3 &geometric) {
+    glm::vec3 sum(0);
+    for (int i = 0; i < 3; ++i) {
+        const auto c = static_cast<std::size_t>(i);
+        if (!(side * glm::dot(normal[c], geometric) > kLeastCornerCosine))
+            return glm::vec3(0);
+        const float below = side * glm::dot(corner[c] - point, normal[c]);
+        sum += barycentric[i] * side * std::max(0.0f, below) * normal[c];
+    }
+    return sum;
+}
+
 // The middle of the scene, rounded to a part of its size: still objects keep their places about it
 // where others move.
 glm::dvec3 middle_of(const Scene &scene) {
@@ -370,13 +392,17 @@ SurfacePoint TracedScene::point(const glm::vec3 &direction, const Hit &hit) cons
     glm::vec3 normal = interpolate(surface.normal);
     const float length = glm::length(normal);
     normal = length > 0 ? normal / length : geometric;
-    if (glm::dot(normal, geometric) < 0)
-        normal = -normal;
+    const float side = glm::dot(normal, geometric) < 0 ? -1.0f : 1.0f;
+    normal *= side;
     // A viewer below the shading normal's horizon: bend the normal up to the viewer
     if (const float cosine = -glm::dot(normal, direction); cosine < kLeastCosine)
         normal = glm::normalize(normal - (kLeastCosine - cosine) * direction);
     point.geometric_normal = geometric;
-    point.error = position_error({positions[t.x], positions[t.y], positions[t.z]}, geometric);
+    const std::array corners{positions[t.x], positions[t.y], positions[t.z]};
+    point.error = position_error(corners, geometric);
+    point.bulge = bulge_at(point.position, corners,
+                           {surface.normal[t.x], surface.normal[t.y], surface.normal[t.z]}, side,
+                           hit.barycentric, geometric);
     point.frame =
         surface.warp.empty() ? make_frame(normal) : make_frame(normal, interpolate(surface.warp));
     point.warp = point.frame.warp;

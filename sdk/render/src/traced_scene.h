@@ -32,7 +32,9 @@ struct SurfacePoint {
     glm::vec3 geometric_normal; // of the triangle
     float error;                // bound of the position's along that normal, of rounding
     Frame frame;                // its normal is the shading normal
-    glm::vec3 warp;             // of the cloth: also where the frame has the weft in its place
+    // From here to the smooth surface that the triangle stands for, where that bulges; else 0
+    glm::vec3 bulge;
+    glm::vec3 warp; // of the cloth: also where the frame has the weft in its place
     std::uint32_t cloth;
     std::uint32_t colours; // into TracedScene::colours
     glm::vec2 uv;          // of printed cloth, metres
