@@ -187,7 +187,7 @@ TEST_F(RenderFiles, StopEndsTheBuildingOfTheBvh) {
                                             },
                                         .stop = &stop});
     EXPECT_TRUE(result.stats.interrupted);
-    EXPECT_EQ(result.stats.rays, 0u);
+    EXPECT_EQ(result.stats.rays.all(), 0u);
     EXPECT_FALSE(traced);
     EXPECT_GT(furthest, 0.1);
     EXPECT_LT(furthest, 0.9);

@@ -235,11 +235,28 @@ TEST(Promises, ShortLastRaysChangeNothing) {
             settings.skip = false;
             const RenderResult full = render(*scene, settings);
             EXPECT_EQ(lean.image.transport, full.image.transport) << bounces;
-            rays.push_back(double(lean.stats.rays) / double(full.stats.rays));
+            rays.push_back(double(lean.stats.rays.all()) / double(full.stats.rays.all()));
         }
         EXPECT_EQ(rays[0], 1) << bounces;
         EXPECT_LT(rays[1], bounces == 0 ? 0.75 : 0.98) << bounces;
     }
+}
+
+TEST(Promises, RaysAreCountedByTheirKind) {
+    Scene scene = folded_satin(16, 16);
+    RenderSettings settings = quick(8);
+    settings.max_bounces = 0;
+    const RayCounts direct = render(scene, settings).stats.rays;
+    EXPECT_EQ(direct.camera, 16u * 16 * 8);
+    EXPECT_LE(direct.shadow, direct.camera); // of one lamp
+    EXPECT_GT(direct.shadow, direct.camera / 4);
+    EXPECT_LE(direct.bounce, direct.camera); // to the environment
+    EXPECT_GT(direct.bounce, direct.camera / 2);
+    EXPECT_EQ(direct.all(), direct.camera + direct.shadow + direct.bounce);
+    settings.max_bounces = 3;
+    const RayCounts more = render(scene, settings).stats.rays;
+    EXPECT_EQ(more.camera, direct.camera);
+    EXPECT_GT(more.bounce, direct.bounce);
 }
 
 // Two lights in two groups add up to both in one group.

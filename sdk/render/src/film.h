@@ -63,7 +63,7 @@ struct Film {
     // What the cloths can show of each dye of the plan at most; known when they are prepared.
     std::array<double, kMostDyes> most_dye{1, 1};
     std::uint64_t not_finite = 0; // samples left out of the sums
-    std::uint64_t rays = 0;
+    RayCounts rays{};
     double seconds = 0; // of tracing, over all runs
 
     // Bytes of a film and of the picture that is made of it.

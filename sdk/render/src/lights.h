@@ -19,6 +19,9 @@
 
 namespace tsuya {
 
+// At the camera's vertex as many lights are sampled each; of more a few are chosen.
+inline constexpr std::size_t kFewLights = 4;
+
 // A light that a ray meets. The densities are those with which `sample` and `choose` find it.
 struct LightMet {
     float radiance;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mutex>
 #include <span>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -55,7 +56,7 @@ template <int K> class Passes {
             const int to = std::min(from + kSamplesPerPass, stop.samples_per_pixel);
             for (bool whole = false; !whole;) {
                 whole = pass(from, to);
-                film_.rays += rays_.exchange(0);
+                film_.rays += std::exchange(rays_, {});
                 film_.not_finite += not_finite_.exchange(0);
                 film_.seconds =
                     seconds_before + std::chrono::duration<double>(Clock::now() - start).count();
@@ -170,7 +171,10 @@ template <int K> class Passes {
                         aovs_.add(x, y, sample, parts.direct + begin, parts.surface + begin);
                 }
             }
-        rays_ += tracer.rays();
+        {
+            const std::lock_guard lock(counting_);
+            rays_ += tracer.rays();
+        }
         if (!film_.change.empty()) {
             film_.change[t] += tracer.change_by_widening();
             film_.told[t] += tracer.told();
@@ -199,21 +203,17 @@ template <int K> class Passes {
             for (std::size_t k = 0; k < K; ++k)
                 *to++ += c.v[k];
         film_.difference[film_.at(x, y)] += sign * mean;
+        if (!film_.depth_difference.empty())
+            add_depths(x, y, sign, radiance);
         if (settings_.denoise && sign < 0) {
             float *odd = film_.odd_sum.data() + (film_.pixel(x, y) - film_.sum.data());
             for (const Channels<K> &c : radiance)
                 for (std::size_t k = 0; k < K; ++k)
-        if (!film_.depth_difference.empty())
-            add_depths(x, y, sign, radiance);
                     *odd++ += c.v[k];
         }
         return true;
     }
 
-    const TracedScene &prepared_;
-    const RenderSettings &settings_;
-    Film &film_;
-    FilmKeeper &keeper_;
     // To what tells the errors at depths of dye.
     void add_depths(int x, int y, float sign, std::span<const Channels<K>> radiance) {
         for (std::size_t judged = 0; judged < kJudgedDepths; ++judged) {
@@ -225,10 +225,16 @@ template <int K> class Passes {
         }
     }
 
+    const TracedScene &prepared_;
+    const RenderSettings &settings_;
+    Film &film_;
+    FilmKeeper &keeper_;
     const Progress &progress_;
     FilmAovs aovs_;
-    std::atomic<std::uint64_t> rays_{0}, not_finite_{0};
-    double reached_ = 0; // part of the tiles that had enough before the pass
+    std::atomic<std::uint64_t> not_finite_{0};
+    RayCounts rays_{};
+    std::mutex counting_; // of rays
+    double reached_ = 0;  // part of the tiles that had enough before the pass
     std::mutex reporting_;
 };
 

@@ -33,14 +33,10 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // A shadow ray ends this share short of the light.
 constexpr float kShadowReach = 1.0f - 1e-4f;
-// Behind as many layers of holes a ray meets nothing.
-constexpr std::uint32_t kMostHoles = 64;
-// At the camera's vertex as many lights are sampled each.
-constexpr std::uint32_t kFewLights = 4;
-// As many are chosen there of more lights.
+// As many are chosen at the camera's vertex of more than kFewLights.
 constexpr std::uint32_t kChosenAtFirst = 2;
 // Number of the lone random pair that chooses lights there; those of holes stand before it.
-constexpr std::uint32_t kLightChoice = 2 * kMostHoles;
+constexpr std::uint32_t kLightChoice = Rays::kLonePairs;
 // Russian roulette from this vertex on.
 constexpr std::uint32_t kRouletteFrom = 3;
 
@@ -94,54 +90,9 @@ template <int K> bool PathTracer<K>::find_next(const Path &path, Hit &hit) {
         hit.distance = 0;
         if (!scene_.lights.has_environment())
             return true;
-        ++rays_; // no holes, see plan
-        return scene_.accelerator.occluded(path.origin, path.direction, kInfinity);
+        return rays_.meets_any(path.origin, path.direction); // no holes, see plan
     }
-    ++rays_;
-    return scene_.accelerator.intersect(path.origin, path.direction, kInfinity, hit) &&
-           (!scene_.has_holes() || pass_holes(path, false, hit));
-}
-
-// From the hit on through holes, each by chance, to what the ray meets.
-// \param from_camera the ray is the camera's, whose numbers are its own
-template <int K> bool PathTracer<K>::pass_holes(const Path &path, bool from_camera, Hit &hit) {
-    float distance = 0;
-    for (std::uint32_t layer = 0; layer < kMostHoles; ++layer) {
-        distance += hit.distance;
-        const float opacity =
-            scene_.opacity(hit, from_camera ? scene_.camera.pixel_width(distance) : 0);
-        if (opacity >= 1 ||
-            path.sampler.lone_pair(from_camera ? layer : kMostHoles + layer).x < opacity) {
-            hit.distance = distance;
-            return true;
-        }
-        const glm::vec3 origin = scene_.behind(path.direction, hit);
-        ++rays_;
-        if (!scene_.accelerator.intersect(origin, path.direction, kInfinity, hit))
-            return false;
-    }
-    return false;
-}
-
-// The share of light that arrives from a distance.
-template <int K>
-float PathTracer<K>::transmission(glm::vec3 origin, const glm::vec3 &direction, float distance) {
-    ++rays_;
-    if (!scene_.has_holes())
-        return scene_.accelerator.occluded(origin, direction, distance) ? 0.0f : 1.0f;
-    float passed = 1;
-    Hit hit;
-    for (std::uint32_t layer = 0; layer < kMostHoles; ++layer) {
-        if (!scene_.accelerator.intersect(origin, direction, distance, hit))
-            return passed;
-        passed *= 1 - scene_.opacity(hit, 0);
-        if (!(passed > 0))
-            return 0;
-        origin = scene_.behind(direction, hit);
-        distance -= hit.distance;
-        ++rays_;
-    }
-    return 0;
+    return rays_.meet_next(path.sampler, path.origin, path.direction, hit);
 }
 
 // The c_i of the estimator.
@@ -217,7 +168,7 @@ void PathTracer<K>::sample_light(const Path &path, const Place &at, const Chosen
         return;
     if (path.vertex > 0 || scene_.has_holes() || !shadows || parts.count > 1) {
         const float arrives =
-            shadows ? transmission(shadow.origin, shadow.direction, shadow.distance) : 1.0f;
+            shadows ? rays_.transmission(shadow.origin, shadow.direction, shadow.distance) : 1.0f;
         for (std::size_t part = 0; part < parts.count && arrives > 0; ++part) {
             Channels<K> &to = path.radiance[parts.group[part]];
             to.add(response, path.throughput, arrives * parts.share[part]);
@@ -248,8 +199,7 @@ template <int K> void PathTracer<K>::add_shadow_rays() {
             rays.farthest[i] = waiting[i].distance;
         }
         std::array<bool, RayPacket::kMost> occluded;
-        scene_.accelerator.occluded(rays, occluded);
-        rays_ += rays.count;
+        rays_.occluded(rays, occluded);
         for (std::size_t i = 0; i < rays.count; ++i) {
             if (occluded[i])
                 continue;
@@ -326,8 +276,7 @@ void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Chann
             rays.farthest[i] = kInfinity;
         }
         std::array<Hit, RayPacket::kMost> hits;
-        scene_.accelerator.intersect(rays, hits);
-        rays_ += rays.count;
+        rays_.meet_first(rays, hits);
         for (std::size_t i = 0; i < rays.count; ++i) {
             Path path{.sampler = samplers[begin + i],
                       .radiance = radiance + (begin + i) * groups,
@@ -346,7 +295,7 @@ void PathTracer<K>::trace(int x, int y, std::span<const Sampler> samplers, Chann
 // The path from where its camera ray hit.
 template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *first) {
     const bool hits =
-        hit.distance < kInfinity && (!scene_.has_holes() || pass_holes(path, true, hit));
+        hit.distance < kInfinity && rays_.pass_holes_first(path.sampler, path.direction, hit);
     const auto see = [&](const LightMet &met) {
         path.radiance[met.group].add(Channels<K>::filled(1), met.radiance);
         if (split_.is_wanted())

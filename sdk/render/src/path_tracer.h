@@ -9,6 +9,7 @@
 #include "channels.h"
 #include "first_hit.h"
 #include "light_split.h"
+#include "rays.h"
 #include "sampler.h"
 #include "traced_scene.h"
 
@@ -18,7 +19,7 @@ class Vertex;
 
 template <int K> class PathTracer {
   public:
-    explicit PathTracer(const TracedScene &scene) : scene_(scene) {}
+    explicit PathTracer(const TracedScene &scene) : scene_(scene), rays_(scene) {}
 
     // One sample in so many tells what wider lobes change.
     static constexpr std::size_t kTelling = 8;
@@ -31,7 +32,7 @@ template <int K> class PathTracer {
     void trace(int x, int y, std::span<const Sampler> samplers, Channels<K> *radiance,
                std::size_t groups, FirstHit *first, const LightParts<K> &parts);
     // Traced so far.
-    std::uint64_t rays() const { return rays_; }
+    const RayCounts &rays() const { return rays_.counts(); }
     // By how much wider lobes changed the transport of all samples that tell it: the mean over
     // channels of the sum over groups.
     double change_by_widening() const { return change_; }
@@ -50,8 +51,6 @@ template <int K> class PathTracer {
     void follow(Path &path, Hit &hit, FirstHit *first);
     void add_shadow_rays();
     bool find_next(const Path &path, Hit &hit);
-    bool pass_holes(const Path &path, bool from_camera, Hit &hit);
-    float transmission(glm::vec3 origin, const glm::vec3 &direction, float distance);
     void sample_lights(const Path &path, const Place &at);
     void sample_light(const Path &path, const Place &at, const ChosenLight &chosen,
                       std::uint32_t which);
@@ -65,10 +64,10 @@ template <int K> class PathTracer {
     bool survives(Path &path) const;
 
     const TracedScene &scene_;
+    Rays rays_;
     std::vector<ShadowRay> shadow_rays_{}; // of the camera's vertices, to be traced in packets
     LightSplit<K> split_{};
     std::vector<Channels<K>> shadow_surface_{}; // of shadow_rays_, where the split is wanted
-    std::uint64_t rays_ = 0;
     double change_ = 0;
     std::uint64_t told_ = 0;
 };

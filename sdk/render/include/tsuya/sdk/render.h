@@ -101,6 +101,22 @@ struct RenderSettings {
 ///   (cryptomatte/...)
 std::vector<std::string> aov_names();
 
+/// Rays by what they look for. One that goes on through a hole counts again.
+struct RayCounts {
+    std::uint64_t camera = 0; ///< what the camera sees
+    std::uint64_t shadow = 0; ///< what keeps light from cloth
+    std::uint64_t bounce = 0; ///< what light comes from to cloth
+
+    std::uint64_t all() const { return camera + shadow + bounce; }
+    RayCounts &operator+=(const RayCounts &other) {
+        camera += other.camera;
+        shadow += other.shadow;
+        bounce += other.bounce;
+        return *this;
+    }
+    bool operator==(const RayCounts &) const = default;
+};
+
 /// What a render did.
 struct RenderStats {
     double samples_per_pixel = 0; ///< mean over the picture
@@ -123,7 +139,7 @@ struct RenderStats {
     /// estimate from one sample of eight, the noisier the narrower the lobes. Empty where nothing
     /// was widened.
     std::optional<double> widening_change{};
-    std::uint64_t rays = 0;
+    RayCounts rays{};
     std::uint64_t not_finite = 0; ///< samples left out because they were NaN or infinite
     std::uint64_t triangles = 0;
     std::vector<Phase> phases{};         ///< those that were done of: bvh, tables, trace, denoise
