@@ -50,11 +50,11 @@ double ResponseCurve::linear_dn(double encoded_dn) const {
 }
 
 CameraFrame read_frame_header(const std::filesystem::path &path) {
-    return pictures().open_frame(path)->description();
+    return picture_reader().open_frame(path)->description();
 }
 
 CameraFrame read_frame(const std::filesystem::path &path, const FrameSettings &settings) {
-    const std::unique_ptr<FrameFile> input = pictures().open_frame(path);
+    const std::unique_ptr<FrameFile> input = picture_reader().open_frame(path);
     if (!settings.response && !input->not_linear().empty())
         throw Error({"the picture is no measurement: " + input->not_linear(), path.string(),
                      "expected RAW, or a linear picture of 16 bits, or a camera with a measured "

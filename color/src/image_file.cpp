@@ -41,20 +41,20 @@ void check_display_image(const Image &image, const std::string &where) {
 
 } // namespace
 
-void check_pictures() { pictures(); }
+void check_pictures() { picture_writer(); }
 
 void write_png(const std::filesystem::path &path, const Image &image, int bits) {
     check_display_image(image, path.string());
     if (bits == 8)
-        pictures().write_png(path, image, bits, quantize<std::uint8_t>(image).data());
+        picture_writer().write_png(path, image, bits, quantize<std::uint8_t>(image).data());
     else if (bits == 16)
-        pictures().write_png(path, image, bits, quantize<std::uint16_t>(image).data());
+        picture_writer().write_png(path, image, bits, quantize<std::uint16_t>(image).data());
     else
         throw Error({"a PNG has no samples of " + std::to_string(bits) + " bits", path.string(),
                      "expected 8 or 16"});
 }
 
-Image read_image(const std::filesystem::path &path) { return pictures().read(path).image; }
+Image read_image(const std::filesystem::path &path) { return picture_reader().read(path).image; }
 
 void write_exr(const std::filesystem::path &path, const Image &image, const ExrOptions &options) {
     check_image(image, path.string());
@@ -66,7 +66,7 @@ void write_exr(const std::filesystem::path &path, const Image &image, const ExrO
         picture.attributes["tsuya:meta:" + key] = value;
     const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
     picture.fill_row = [&](int y, float *out) { std::copy_n(image.pixel(0, y), row, out); };
-    pictures().write_exr(path, picture);
+    picture_writer().write_exr(path, picture);
 }
 
 } // namespace tsuya

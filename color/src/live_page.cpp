@@ -72,7 +72,7 @@ std::string planes_text(const PageDress &dress, const PackedPicture &packed) {
          judged_pixels(dress.image, std::numeric_limits<std::size_t>::max()))
         coverage[pixel] = 1;
     bytes += plane_bytes(coverage, dress.image.width);
-    return base64(pictures().deflate(bytes));
+    return base64(picture_writer().deflate(bytes));
 }
 
 std::string html_text(std::string_view text) {

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Picture files through OpenImageIO. It stands on 260 shared libraries, which take a fifth of a
-/// second to load: so they are behind a module that is loaded when the first picture is touched.
+/// Picture files, behind two modules that are loaded when the first picture is touched. That which
+/// writes them stands on few libraries. That which reads them goes through OpenImageIO, which
+/// stands on 260, and they take a fifth of a second to load.
 
 #include <array>
 #include <cstdint>
@@ -79,24 +80,17 @@ struct TextPlace {
     std::array<float, 3> colour{};
 };
 
-/// What the module does. All throw Error at the path.
-class Pictures {
+/// What the module that writes does. All throw Error at the path.
+class PictureWriter {
   public:
-    virtual ~Pictures() = default;
+    virtual ~PictureWriter() = default;
     virtual void write_exr(const std::filesystem::path &path,
                            const OutputPicture &picture) const = 0;
     /// Values are rows of width x channels samples of `bits` bits.
     virtual void write_png(const std::filesystem::path &path, const Image &shape, int bits,
                            const void *samples) const = 0;
-    virtual InputPicture read(const std::filesystem::path &path) const = 0;
-    /// Floats are clamped to [0, 1]; one that is not a number is an Error.
-    virtual EncodedPicture read_encoded(const std::filesystem::path &path,
-                                        FloatCode floats) const = 0;
-    /// A PNG in memory. \param name for errors
-    virtual EncodedPicture decode_png(std::string_view bytes, const std::string &name) const = 0;
     /// The bytes compressed, in the format of zlib.
     virtual std::string deflate(std::string_view bytes) const = 0;
-    virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
     /// Width and height of a text in pixels. Throws Error at `sheet.font`.
     virtual std::array<int, 2> text_size(const std::string &text, int size,
                                          const std::string &font) const = 0;
@@ -105,7 +99,21 @@ class Pictures {
                             const std::string &font) const = 0;
 };
 
-/// Loads the module at the first call. Throws Error where it cannot be loaded.
-const Pictures &pictures();
+/// What the module that reads does. All throw Error at the path.
+class PictureReader {
+  public:
+    virtual ~PictureReader() = default;
+    virtual InputPicture read(const std::filesystem::path &path) const = 0;
+    /// Floats are clamped to [0, 1]; one that is not a number is an Error.
+    virtual EncodedPicture read_encoded(const std::filesystem::path &path,
+                                        FloatCode floats) const = 0;
+    /// A PNG in memory. \param name for errors
+    virtual EncodedPicture decode_png(std::string_view bytes, const std::string &name) const = 0;
+    virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
+};
+
+/// The modules, loaded at the first call. Throw Error where that fails.
+const PictureWriter &picture_writer();
+const PictureReader &picture_reader();
 
 } // namespace tsuya

@@ -49,7 +49,8 @@ Texture coverage_of(const EncodedPicture &samples) {
 } // namespace
 
 Texture read_artwork(const std::filesystem::path &path) {
-    EncodedPicture samples = grey_or_rgb(pictures().read_encoded(path, FloatCode::srgb), path);
+    EncodedPicture samples =
+        grey_or_rgb(picture_reader().read_encoded(path, FloatCode::srgb), path);
     const bool grey = colours(samples) == 1;
     Texture texture{
         .width = samples.width, .height = samples.height, .channels = samples.alpha >= 0 ? 4 : 3};
@@ -71,11 +72,11 @@ Texture read_artwork(const std::filesystem::path &path) {
 }
 
 Texture read_coverage(const std::filesystem::path &path) {
-    return coverage_of(grey_or_rgb(pictures().read_encoded(path, FloatCode::linear), path));
+    return coverage_of(grey_or_rgb(picture_reader().read_encoded(path, FloatCode::linear), path));
 }
 
 Texture decode_coverage(std::string_view bytes, const std::string &name) {
-    return coverage_of(grey_or_rgb(pictures().decode_png(bytes, name), name));
+    return coverage_of(grey_or_rgb(picture_reader().decode_png(bytes, name), name));
 }
 
 std::vector<Spectrum> rgb_inks() {

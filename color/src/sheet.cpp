@@ -72,7 +72,7 @@ fs::path find_font() {
 std::array<int, 2> text_size(const std::string &text, int size, const std::string &font) {
     if (text.empty())
         return {0, 0};
-    return pictures().text_size(text, size, font);
+    return picture_writer().text_size(text, size, font);
 }
 
 /// The largest size up to `size` at which the text fits into `width` pixels.
@@ -149,13 +149,13 @@ class Pen {
         // The baseline: capitals are about 0.72 of the size high, so they stand in the middle.
         const int fitted = fitting_size(text, size, width, font_);
         const int baseline = y + (height + static_cast<int>(0.72 * fitted)) / 2;
-        pictures().write_text(sheet_, text,
-                              {.x = centred ? x + width / 2 : x,
-                               .baseline = baseline,
-                               .centred = centred,
-                               .size = fitted,
-                               .colour = color_},
-                              font_);
+        picture_writer().write_text(sheet_, text,
+                                    {.x = centred ? x + width / 2 : x,
+                                     .baseline = baseline,
+                                     .centred = centred,
+                                     .size = fitted,
+                                     .colour = color_},
+                                    font_);
     }
 
   private:

@@ -250,11 +250,11 @@ void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &
                 out = std::copy_n(aov.pixel(x, y), aov.channels.size(), out);
         }
     };
-    pictures().write_exr(path, picture);
+    picture_writer().write_exr(path, picture);
 }
 
 SpectralImage read_spectral_exr(const std::filesystem::path &path) {
-    const InputPicture picture = pictures().read(path);
+    const InputPicture picture = picture_reader().read(path);
     SpectralImage image = parse_header(picture, path.string());
     const ChannelFinder finder(picture.image, path.string());
     std::vector<std::vector<std::size_t>> from_group, from_aov;

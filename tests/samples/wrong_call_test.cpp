@@ -108,7 +108,7 @@ TEST(WrongInput, PlacesThatCannotBeWrittenAreToldFirst) {
 TEST(WrongInput, TheModuleForPicturesIsTriedFirst) {
     const Scratch scratch;
     const std::string scene_file = write_scene(scratch);
-    scratch.write("libtsuya_pictures.so", "");
+    scratch.write("libtsuya_picture_writer.so", "");
     const char *const before = std::getenv("LD_LIBRARY_PATH");
     const std::string saved = before ? before : "";
     setenv("LD_LIBRARY_PATH", scratch.folder().c_str(), 1);

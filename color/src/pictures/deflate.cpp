@@ -5,7 +5,7 @@
 
 #include <zlib.h>
 
-#include "pictures/picture_files.h"
+#include "pictures/writer_parts.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {

@@ -4,7 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "pictures/oiio_input.h"
-#include "pictures/picture_files.h"
+#include "pictures/reader_parts.h"
 #include "tsuya/sdk/detail/srgb_curve.h"
 #include "tsuya/sdk/error.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "pictures/oiio_input.h"
-#include "pictures/picture_files.h"
+#include "pictures/reader_parts.h"
 
 namespace tsuya {
 namespace {

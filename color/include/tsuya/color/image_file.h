@@ -16,8 +16,8 @@
 
 namespace tsuya {
 
-/// Throws Error where the module for pictures cannot be loaded. For programs that work long before
-/// they write the first picture; any other has no need to call it.
+/// Throws Error where the module that writes pictures cannot be loaded. For programs that work long
+/// before they write the first picture; any other has no need to call it.
 void check_pictures();
 
 /// Writes a PNG of a display picture: values in [0, 1], already encoded (see display), clamped; 1

@@ -1,11 +1,12 @@
-// The module's one door.
+// The one door of the module that writes.
 
-#include "pictures/picture_files.h"
+#include "pictures/writer_parts.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
 
-class OiioPictures final : public Pictures {
+class Writer final : public PictureWriter {
   public:
     void write_exr(const std::filesystem::path &path, const OutputPicture &picture) const override {
         write_exr_picture(path, picture);
@@ -14,20 +15,7 @@ class OiioPictures final : public Pictures {
                    const void *samples) const override {
         write_png_samples(path, shape, bits, samples);
     }
-    InputPicture read(const std::filesystem::path &path) const override {
-        return read_picture(path);
-    }
-    EncodedPicture read_encoded(const std::filesystem::path &path,
-                                FloatCode floats) const override {
-        return read_encoded_picture(path, floats);
-    }
-    EncodedPicture decode_png(std::string_view bytes, const std::string &name) const override {
-        return decode_png_bytes(bytes, name);
-    }
     std::string deflate(std::string_view bytes) const override { return deflate_bytes(bytes); }
-    std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const override {
-        return open_frame_file(path);
-    }
     std::array<int, 2> text_size(const std::string &text, int size,
                                  const std::string &font) const override {
         return size_of_text(text, size, font);
@@ -39,9 +27,21 @@ class OiioPictures final : public Pictures {
 };
 
 } // namespace
+
+void check_extension(const std::filesystem::path &path, const char *extension) {
+    if (path.extension() != extension)
+        throw Error({std::string("the file does not end in ") + extension, path.string(),
+                     std::string("expected NAME") + extension});
+}
+
+void fail_encoding(const std::filesystem::path &path, const std::string &cause) {
+    throw Error({"cannot encode the picture: " + cause, path.string(),
+                 "expected a picture that the format can hold"});
+}
+
 } // namespace tsuya
 
-extern "C" [[gnu::visibility("default")]] const tsuya::Pictures *tsuya_pictures() {
-    static const tsuya::OiioPictures pictures;
-    return &pictures;
+extern "C" [[gnu::visibility("default")]] const tsuya::PictureWriter *tsuya_picture_writer() {
+    static const tsuya::Writer writer;
+    return &writer;
 }
