@@ -136,7 +136,7 @@ struct Compare final : Command {
         for (std::size_t i = 1; i < dresses.size(); ++i)
             options.title += ", " + dresses[i].name;
         for (const std::string &dye : dyes)
-            options.dyes.push_back({scene::file_stem_of(dye), parse_dye(dye)});
+            options.dyes.push_back({scene::label_of(dye), parse_dye(dye)});
         const LivePage made = live_page(dresses, options);
         scene::prepare_output_file(html);
         write_file(html, made.html);
@@ -182,7 +182,7 @@ struct Compare final : Command {
 
     static std::string row_label(const std::vector<PageDress> &dresses, std::size_t dress,
                                  const std::string &dye) {
-        const std::string of_dye = scene::file_stem_of(dye);
+        const std::string of_dye = scene::label_of(dye);
         if (dresses.size() == 1)
             return of_dye;
         return dresses[dress].name + (dye.empty() ? "" : ", ") + of_dye;

@@ -278,14 +278,16 @@ struct Render final : Command {
 
     fs::path picture_of(const NamedLamp &lamp, std::size_t frame) const {
         fs::path path = output;
-        return of_frame(path.replace_filename(output.stem().string() + "-" + lamp.name + ".png"),
+        return of_frame(path.replace_filename(output.stem().string() + "-" +
+                                              scene::file_stem_of(lamp.name) + ".png"),
                         frame);
     }
 
     /// Of a lamp's pictures.
     fs::path video_of(const NamedLamp &lamp) const {
         fs::path path = output;
-        return path.replace_filename(output.stem().string() + "-" + lamp.name + ".mp4");
+        return path.replace_filename(output.stem().string() + "-" + scene::file_stem_of(lamp.name) +
+                                     ".mp4");
     }
 
     /// A video that cannot be made is a warning: its pictures are there.

@@ -246,6 +246,31 @@ TEST(FileStem, IsFitForAFileName) {
     EXPECT_EQ(file_stem_of("#aabbcc"), "aabbcc");
     EXPECT_EQ(file_stem_of("0.7*A + 0.3*D65"), "0.7A_+_0.3D65");
     EXPECT_EQ(file_stem_of("a/b").find('/'), std::string::npos);
+    for (const char *const spec : {"my/own.csv:navy blue", "0.5*A", "0.5*my/a.csv", "#aabbcc"})
+        EXPECT_EQ(file_stem_of(label_of(spec)), file_stem_of(spec));
+}
+
+TEST(Label, IsAsItIsWrittenWithoutFolders) {
+    EXPECT_EQ(label_of("#aabbcc"), "#aabbcc");
+    EXPECT_EQ(label_of("0.5*A"), "0.5*A");
+    EXPECT_EQ(label_of("indigo 2% + madder 0.5%"), "indigo 2% + madder 0.5%");
+    EXPECT_EQ(label_of("my/own.csv"), "own");
+    EXPECT_EQ(label_of("my/own.csv:navy"), "own:navy");
+    EXPECT_EQ(parse_lamps(Texts{"0.5*A"})[0].name, "0.5*A");
+}
+
+TEST(Distinct, CasesDoNotPartNames) {
+    check_distinct(Texts{"crimson", "#aabbcc", "a.csv:x", "a.csv:y"}, "dye");
+    for (const Texts &two :
+         {Texts{"CRIMSON", "crimson"}, Texts{"#AABBCC", "#aabbcc"}, Texts{"a/x.csv", "b/X.csv"}}) {
+        const Problem problem = problem_of([&] { check_distinct(two, "dye"); });
+        EXPECT_EQ(problem.where, "dye");
+        EXPECT_NE(problem.what.find("two dyes"), std::string::npos) << problem.what;
+    }
+    EXPECT_NE(problem_of([] {
+                  check_lamps(Texts{"d65", "D65"});
+              }).what.find("two lamps"),
+              std::string::npos);
 }
 
 TEST(OutputFile, CreatesItsFolderAndNothingElse) {

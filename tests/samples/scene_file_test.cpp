@@ -290,7 +290,7 @@ TEST(SceneFile, F0IsRefusedWhereNothingLooksAtIt) {
             ADD_FAILURE() << fabric;
         } catch (const Error &error) {
             const Problem &p = error.problems()[0];
-            EXPECT_EQ(p.where, (scratch / "a.scene.toml").string() + ": fabrics.other.f0");
+            EXPECT_EQ(p.where, (scratch / "a.scene.toml").string() + ":17:1: fabrics.other.f0");
             EXPECT_NE(p.accepted.find("takeda"), std::string::npos) << p.accepted;
         }
     const auto satin = data_folder() / "fabrics" / "black_satin.fabric.toml";

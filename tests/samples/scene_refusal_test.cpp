@@ -34,6 +34,56 @@ TEST(SceneFile, ALightAtItsTargetIsOneProblem) {
     EXPECT_NE(problems[0].what.find("at its target"), std::string::npos) << problems[0].what;
 }
 
+TEST(SceneFile, KeysOfARefusedLightAreKnown) {
+    const Scratch scratch;
+    scratch.write("a.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 100 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n"
+                           "300 100\n");
+    const std::string behaviour = "visible = true\nblocks = true\nshadows = false\n";
+    for (const std::string &kind :
+         {"type = \"rectangle\"\nup = [0, 1, 0]\nwidth = 1\nheight = 2\nradiance = 3\n" + behaviour,
+          "type = \"disk\"\nradius = 1\nlux = 3\nat = [0, 0, 0]\n" + behaviour,
+          std::string(
+              "type = \"spot\"\ncone_deg = 20\nfalloff = 0.1\ncandela = 3\nshadows = true\n"),
+          std::string("type = \"ies\"\nprofile = \"a.ies\"\nturn_deg = 20\nlumen = 3\n")}) {
+        const std::vector<Problem> problems = problems_of(
+            scratch, "[fabrics.silk]\n[garments.cloth]\nmesh = \"cloth.obj\"\nfabric = \"silk\"\n"
+                     "[lights.key]\ncentre = [1, 2, 3]\ntarget = [1, 2, 3]\ngroup = \"key\"\n"
+                     "lamp = \"A\"\n" +
+                         kind);
+        EXPECT_EQ(problems.size(), 1u) << kind << problems.back().what;
+        EXPECT_NE(problems[0].what.find("at its target"), std::string::npos) << problems[0].what;
+    }
+}
+
+TEST(SceneFile, PanelsOfAMeshThatCannotBeReadAreNotJudged) {
+    const Scratch scratch;
+    scratch.write("broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
+    const std::vector<Problem> problems = problems_of(
+        scratch, "[fabrics.silk]\n[environment]\n[garments.cloth]\nmesh = \"broken.obj\"\n"
+                 "fabric = \"silk\"\ngrain.front = 3\n");
+    ASSERT_EQ(problems.size(), 1u) << problems[1].what;
+    EXPECT_NE(problems[0].what.find("broken.obj"), std::string::npos) << problems[0].what;
+}
+
+TEST(SceneFile, OpenDyesBesideManyColoursAreRefusedAtTheirPlace) {
+    const Scratch scratch;
+    std::string text = "[environment]\n[fabrics.open]\ndye = \"any\"\n";
+    for (const char *const dye : {"crimson", "indigo", "emerald"})
+        text += std::string("[fabrics.") + dye + "]\ndye = \"" + dye + "\"\n";
+    for (const char *const fabric : {"open", "crimson", "indigo", "emerald"})
+        text += std::string("[bodies.") + fabric + "]\nmesh = \"cloth.obj\"\nfabric = \"" + fabric +
+                "\"\n";
+    const SceneFile file = read(scratch, text);
+    try {
+        build_scene(file);
+        ADD_FAILURE() << "no error was thrown";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems()[0].where,
+                  (scratch / "a.scene.toml").string() + ":2:1: fabrics.open.dye");
+        EXPECT_NE(error.problems()[0].what.find("4 colours vary"), std::string::npos);
+    }
+}
+
 TEST(SceneFile, AnOpenDyeIsADye) {
     const Scratch scratch;
     EXPECT_EQ(problems_of(scratch, "[fabrics.silk]\ndye = \"any\"\nreflectance = 0.5\n"

@@ -42,7 +42,7 @@ TEST(StudioPreset, HasGroupsWithLampsThatAreUsed) {
 // shadows and the light of the backdrop.
 double exposure(const Studio &studio, const Subject &subject) {
     const glm::dvec3 middle = 0.5 * (subject.lower + subject.upper);
-    const glm::dvec3 normal = direction_of(subject.azimuth, 0);
+    const glm::dvec3 normal = direction_at(subject.azimuth, 0);
     double sum = 0;
     for (const Light &light : studio.lights) {
         const auto place = place_of(light);
@@ -95,13 +95,48 @@ TEST(StudioPreset, IsPutIntoAScene) {
 
     const BuiltScene more =
         built("studio = \"home\"\n", "[lights.torch]\ntype = \"point\"\ncentre = [0, 1, 2]\n"
-                                     "group = \"window\"\nlamp = \"E\"\n[environment]\n");
-    EXPECT_EQ(more.scene.light_groups,
-              (std::vector<std::string>{"window", "environment", "lamps", "room"}));
-    EXPECT_EQ(more.own_lamps, (std::vector<std::string>{"E", "", "A", "A"}));
+                                     "group = \"window\"\nlamp = \"d65\"\n[environment]\n");
+    EXPECT_EQ(more.scene.light_groups, (std::vector<std::string>{"window", "environment", "lamps"}))
+        << "nothing is left that shines in the group of the studio's environment";
+    EXPECT_EQ(more.own_lamps, (std::vector<std::string>{"d65", "", "A"}));
     EXPECT_FALSE(more.scene.environment->picture);
     EXPECT_EQ(std::get<SphereLight>(more.scene.lights[1]).group, LightGroupIndex{2});
     EXPECT_THROW(built("studio = \"hone\"\n", ""), Error);
+}
+
+TEST(StudioPresets, ALightJoinsAGroupUnderItsLamp) {
+    const Scratch scratch;
+    scratch.write("cloth.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto problems = [&](const std::string &lights) {
+        try {
+            read_scene_file(
+                scratch.write("a.scene.toml", "studio = \"portrait\"\n[bodies.cloth]\n"
+                                              "mesh = \"cloth.obj\"\nfabric = \"silk\"\n"
+                                              "[fabrics.silk]\n" +
+                                                  lights));
+        } catch (const Error &error) {
+            return error.problems();
+        }
+        return std::vector<Problem>{};
+    };
+    const std::string torch = "[lights.torch]\ntype = \"point\"\ncentre = [0, 1, 2]\n";
+    const auto other = problems(torch + "group = \"fill\"\nlamp = \"A\"\n");
+    ASSERT_EQ(other.size(), 1u);
+    EXPECT_EQ(other[0].where, (scratch / "a.scene.toml").string() + ":10:8");
+    EXPECT_EQ(other[0].what, "the group has the lamp D65 of the studio");
+    EXPECT_EQ(problems(torch + "group = \"fill\"\nlamp = \"A\"\n[environment]\n").size(), 0u)
+        << "the group is empty without the studio's environment";
+    EXPECT_EQ(problems(torch + "group = \"key\"\nlamp = \"A\"\n[environment]\n").size(), 1u);
+    // Pictures under the lights' own lamps: each group needs one
+    const std::string own = "[output]\nlamps = [\"D65\", \"own\"]\n";
+    EXPECT_EQ(problems(own).size(), 0u);
+    EXPECT_EQ(problems(torch + "group = \"fill\"\n" + own).size(), 0u);
+    const auto missing = problems(torch + own);
+    ASSERT_EQ(missing.size(), 1u);
+    EXPECT_EQ(missing[0].where, (scratch / "a.scene.toml").string() + ":10:9");
+    EXPECT_EQ(missing[0].what, "light group 'torch' has no lamp of its own");
+    EXPECT_EQ(problems(torch + "lamp = \"A\"\n" + own).size(), 0u);
+    EXPECT_EQ(problems(torch + "lamp = \"no lamp\"\n" + own).size(), 1u);
 }
 
 TEST(OwnLamps, AreKeptWithTheTransport) {

@@ -32,7 +32,7 @@ TEST(Cyclorama, StandsBehindTheCentre) {
     const Cyclorama shape{.azimuth = 0.7, .front = 4, .back = 2.5, .height = 6};
     double nearest = 1e9, farthest = -1e9, top = 0;
     for (const glm::dvec3 &p : make_cyclorama(shape).position) {
-        const double towards = glm::dot(p, direction_of(0.7, 0));
+        const double towards = glm::dot(p, direction_at(0.7, 0));
         nearest = std::min(nearest, towards);
         farthest = std::max(farthest, towards);
         top = std::max(top, p.y);
@@ -109,7 +109,7 @@ TEST(Framing, TouchesItsMarginsAndKeepsAllInside) {
     EXPECT_NEAR(top, 0.05 * camera.height, 1e-6);
     EXPECT_NEAR(bottom, 0.95 * camera.height, 1e-6);
     const glm::dvec3 back = glm::normalize(camera.eye - camera.target);
-    EXPECT_NEAR(glm::length(back - direction_of(0.5, 0.1)), 0, 1e-9);
+    EXPECT_NEAR(glm::length(back - direction_at(0.5, 0.1)), 0, 1e-9);
 }
 
 TEST(Framing, TouchesTheSidesOfWhatIsWide) {

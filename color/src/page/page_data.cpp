@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "lower_case.h"
 #include "page/json_text.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
@@ -68,8 +69,9 @@ std::string lamps_data(const PageOptions &options) {
     for (const NamedLamp &named : options.lamps)
         all.push_back(lamp_data(named));
     for (const std::string &name : lamp_names())
-        if (std::none_of(options.lamps.begin(), options.lamps.end(),
-                         [&](const NamedLamp &named) { return named.name == name; }))
+        if (std::none_of(options.lamps.begin(), options.lamps.end(), [&](const NamedLamp &named) {
+                return lower_case(named.name) == lower_case(name);
+            }))
             all.push_back(lamp_data(find_lamp(name)));
     return json::array(all);
 }
@@ -79,8 +81,9 @@ std::string dyes_data(const PageOptions &options) {
     for (const NamedDye &named : options.dyes)
         all.push_back(dye_data(named.name, named.spectrum));
     for (const std::string &name : dye_names())
-        if (std::none_of(options.dyes.begin(), options.dyes.end(),
-                         [&](const NamedDye &named) { return named.name == name; }))
+        if (std::none_of(options.dyes.begin(), options.dyes.end(), [&](const NamedDye &named) {
+                return lower_case(named.name) == lower_case(name);
+            }))
             all.push_back(dye_data(name, dye(name)));
     return json::array(all);
 }

@@ -158,4 +158,19 @@ std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_vie
                  accepted_names(pattern, names)});
 }
 
+double uv_area(const PolygonMesh &mesh, std::size_t f) {
+    if (!has_uv(mesh, f))
+        return 0;
+    const auto uv = [&](std::uint32_t c) {
+        return mesh.uv[static_cast<std::size_t>(mesh.corner_uv[c])];
+    };
+    const glm::dvec2 origin = uv(mesh.face_offset[f]);
+    double twice = 0;
+    for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
+        const glm::dvec2 a = uv(c) - origin, b = uv(mesh.next(f, c)) - origin;
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return twice / 2;
+}
+
 } // namespace tsuya::garment

@@ -5,28 +5,9 @@
 #include "mesh/islands.h"
 #include "mesh/stop.h"
 #include "repair/mesh_repair.h"
+#include "tsuya/garment/panels.h"
 
 namespace tsuya::garment {
-namespace {
-
-/// Twice the area that a face encloses in the UV plane; negative where it is mirrored. 0 without
-/// UV.
-double uv_area(const PolygonMesh &mesh, std::size_t f) {
-    if (!has_uv(mesh, f))
-        return 0.0;
-    const auto uv = [&](std::uint32_t c) {
-        return mesh.uv[static_cast<std::size_t>(mesh.corner_uv[c])];
-    };
-    const glm::dvec2 origin = uv(mesh.face_offset[f]);
-    double area = 0.0;
-    for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
-        const glm::dvec2 a = uv(c) - origin, b = uv(mesh.next(f, c)) - origin;
-        area += a.x * b.y - a.y * b.x;
-    }
-    return area;
-}
-
-} // namespace
 
 void MeshRepair::cut_folded_islands() {
     const SetNumbers islands = find_islands(mesh_, edges());

@@ -104,7 +104,8 @@ void SceneReader::read_fabrics() {
     if (!fabrics)
         return;
     for (const auto &[name, section] : fabrics->sections()) {
-        FabricEntry entry{.name = name, .file = existing_file(section, "file", false)};
+        FabricEntry entry{
+            .name = name, .where = section.where(), .file = existing_file(section, "file", false)};
         entry.open_dye = section.is_text("dye") && section.text("dye") == kAnyDye;
         if (entry.open_dye && section.has("reflectance"))
             section.problem("dye", "dye and reflectance are both given", "expected one of them");

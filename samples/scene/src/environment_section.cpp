@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene_reader.h"
+#include "studio_stage.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/environment_colours.h"
 #include "tsuya/scene/sky.h"
@@ -21,7 +22,8 @@ void SceneReader::read_studio() {
     const auto name = root_.text("studio");
     if (!name)
         return;
-    note(root_, "studio", [&] { studio_description(*name); });
+    note(root_, "studio",
+         [&] { studio_groups_ = lit_groups(make_studio(*name, {}), !root_.has("environment")); });
     file_.studio = *name;
 }
 

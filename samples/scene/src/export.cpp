@@ -31,9 +31,9 @@ std::optional<GgxFacets> facets_of(const Fabric &fabric, const Progress &progres
     for (int theta = 0; theta <= 80; theta += 5)
         for (int phi = 0; phi < 180; phi += 10) {
             const double t = theta * kDegree, p = phi * kDegree;
-            table.rows.push_back({0, 0, t, p,
-                                  static_cast<double>(brdf->evaluate(
-                                      {0, 0, 1}, glm::vec3(tsuya::direction_of(t, p))))});
+            table.rows.push_back(
+                {0, 0, t, p,
+                 static_cast<double>(brdf->evaluate({0, 0, 1}, glm::vec3(direction_of(t, p))))});
         }
     return fit_ggx(Bard::fit(table, BardSmoothness{}, fabric.name, progress), progress);
 }
@@ -75,10 +75,10 @@ double error_of(const Fabric &fabric, const GgxFacets &facets, const Progress &p
         for (int theta = 0; theta < 90; theta += 5)
             for (int phi = 0; phi < 360; phi += 10) {
                 const double t = theta * kDegree, p = phi * kDegree;
-                table.rows.push_back({theta_i, phi_i, t, p,
-                                      static_cast<double>(truth->evaluate(
-                                          glm::vec3(tsuya::direction_of(theta_i, phi_i)),
-                                          glm::vec3(tsuya::direction_of(t, p))))});
+                table.rows.push_back(
+                    {theta_i, phi_i, t, p,
+                     static_cast<double>(truth->evaluate(glm::vec3(direction_of(theta_i, phi_i)),
+                                                         glm::vec3(direction_of(t, p))))});
             }
     }
     return measure_accuracy(

@@ -6,6 +6,7 @@
 
 #include "index_of.h"
 #include "tsuya/color/print_file.h"
+#include "tsuya/garment/panels.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya::scene {
@@ -19,18 +20,10 @@ struct UvAreas {
 UvAreas uv_areas(const garment::PolygonMesh &mesh, const std::string &panel) {
     UvAreas areas;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        if (mesh.panel_name[mesh.face_panel[f]] != panel || !garment::has_uv(mesh, f))
+        if (mesh.panel_name[mesh.face_panel[f]] != panel)
             continue;
-        const auto uv = [&](std::uint32_t c) {
-            return mesh.uv[static_cast<std::size_t>(mesh.corner_uv[c])];
-        };
-        const glm::dvec2 origin = uv(mesh.face_offset[f]);
-        double twice = 0;
-        for (std::uint32_t c = mesh.face_offset[f]; c < mesh.face_offset[f + 1]; ++c) {
-            const glm::dvec2 a = uv(c) - origin, b = uv(mesh.next(f, c)) - origin;
-            twice += a.x * b.y - a.y * b.x;
-        }
-        (twice < 0 ? areas.mirrored : areas.upright) += std::abs(twice) / 2;
+        const double area = garment::uv_area(mesh, f);
+        (area < 0 ? areas.mirrored : areas.upright) += std::abs(area);
     }
     return areas;
 }

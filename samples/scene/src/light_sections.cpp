@@ -7,6 +7,7 @@
 #include "scene_reader.h"
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/spectrum_file.h"
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/light_group.h"
@@ -37,13 +38,40 @@ void SceneReader::read_own_lamp(const Section &section, LightGroupIndex group) {
     const auto lamp = section.text("lamp");
     if (!lamp)
         return;
-    note(section, "lamp", [&] { parse_lamp(*lamp, folder_); });
     const std::string spec = parse_spectrum_file_spec(*lamp) ? (folder_ / *lamp).string() : *lamp;
-    std::string &known = file_.own_lamps[group.value];
-    if (!known.empty() && known != spec)
-        section.problem("lamp", "the group has the lamp " + known + " already",
-                        "expected one lamp for a group");
-    known = spec;
+    std::string &own = file_.own_lamps[group.value];
+    const std::string of_studio = lamp_of_studio(file_.light_groups[group.value]);
+    const std::string known = own.empty() ? of_studio : own;
+    note(section, "lamp", [&] {
+        const NamedLamp read = find_lamp(spec);
+        if (known.empty())
+            return;
+        const NamedLamp other = find_lamp(known);
+        if (read.spectrum != other.spectrum || read.factor != other.factor)
+            section.problem("lamp",
+                            "the group has the lamp " + known +
+                                (known == of_studio ? " of the studio" : " already"),
+                            "expected one lamp for a group, or another group");
+    });
+    own = spec;
+}
+
+std::string SceneReader::lamp_of_studio(const std::string &group) const {
+    const auto found = std::ranges::find(studio_groups_, group, &StudioGroup::name);
+    return found == studio_groups_.end() ? "" : found->lamp;
+}
+
+void SceneReader::check_own_lamps() {
+    const bool wanted = std::ranges::find(file_.output.lamps, kOwnLamps, &NamedLamp::name) !=
+                        file_.output.lamps.end();
+    file_.own_lamps.resize(file_.light_groups.size());
+    for (std::size_t g = 0; wanted && g < file_.light_groups.size(); ++g) {
+        const std::string &group = file_.light_groups[g];
+        if (file_.own_lamps[g].empty() && lamp_of_studio(group).empty())
+            root_.section("output")->problem("lamps",
+                                             "light group '" + group + "' has no lamp of its own",
+                                             "expected lamp = \"D65\", say, beside its light");
+    }
 }
 
 void SceneReader::read_units() {
@@ -69,6 +97,10 @@ void SceneReader::read_light(const std::string &name, const Section &section) {
     }
     const bool faces = kind == "rectangle" || kind == "disk" || kind == "spot" || kind == "ies";
     const glm::dvec3 target = faces ? section.vector("target").value_or(kTarget) : kTarget;
+    // Every key is read before a light can be refused, so that none is unknown for it
+    const LightGroupIndex in_group = group(section, name);
+    read_own_lamp(section, in_group);
+    const GivenStrength strength = read_strength(section, kind);
     note(section, kind == "sun" ? "elevation_deg" : "centre", [&] {
         Light light;
         if (kind == "rectangle")
@@ -85,12 +117,11 @@ void SceneReader::read_light(const std::string &name, const Section &section) {
             light = read_luminaire(section, target);
         else
             light = read_point(section);
-        read_strength(section, target, light);
+        give_strength(section, strength, target, light);
         std::visit(
             [&](auto &l) {
                 l.name = name;
-                l.group = group(section, name);
-                read_own_lamp(section, l.group);
+                l.group = in_group;
             },
             light);
         file_.lights.push_back(std::move(light));
@@ -121,22 +152,23 @@ LightBehaviour SceneReader::read_behaviour(const Section &section) {
 }
 
 RectangleLight SceneReader::read_rectangle(const Section &section, const glm::dvec3 &target) {
+    const LightBehaviour behaviour = read_behaviour(section);
     const Softbox box{.centre = centre_of(section),
                       .target = target,
                       .up = section.vector("up").value_or(Softbox{}.up),
                       .width = section.number("width", kSmallest, kLargest).value_or(1),
                       .height = section.number("height", kSmallest, kLargest).value_or(1)};
     RectangleLight light = make_light(box);
-    light.behaviour = read_behaviour(section);
+    light.behaviour = behaviour;
     return light;
 }
 
 DiskLight SceneReader::read_disk(const Section &section, const glm::dvec3 &target) {
-    const glm::dvec3 centre = centre_of(section);
-    return {.centre = centre,
-            .direction = facing(centre, target),
-            .radius = section.number("radius", kSmallest, kLargest).value_or(0.5),
-            .behaviour = read_behaviour(section)};
+    DiskLight light{.centre = centre_of(section),
+                    .radius = section.number("radius", kSmallest, kLargest).value_or(0.5),
+                    .behaviour = read_behaviour(section)};
+    light.direction = facing(light.centre, target);
+    return light;
 }
 
 SphereLight SceneReader::read_sphere(const Section &section) {
@@ -151,29 +183,29 @@ PointLight SceneReader::read_point(const Section &section) {
 
 PointLight SceneReader::read_spot(const Section &section, const glm::dvec3 &target) {
     PointLight light = read_point(section);
-    light.direction = facing(light.position, target);
     light.cone_angle = 0.5 * section.number("cone_deg", 0.1, 360).value_or(40) * kDegree;
     light.full_angle = light.cone_angle * (1 - section.number("falloff", 0, 1).value_or(0.3));
+    light.direction = facing(light.position, target);
     return light;
 }
 
 PointLight SceneReader::read_luminaire(const Section &section, const glm::dvec3 &target) {
     PointLight light = read_point(section);
-    light.direction = facing(light.position, target);
     const double turn = section.number("turn_deg", -360, 360).value_or(0) * kDegree;
+    if (const auto file = existing_file(section, "profile", true); is_file(file))
+        note(section, "profile", [&] { light.profile = read_ies(file); });
+    light.direction = facing(light.position, target);
     // About the axis from where the front (+z) is; for one that shines along z, from the top
     const glm::dvec3 up =
         std::abs(light.direction.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 zero = glm::normalize(up - glm::dot(up, light.direction) * light.direction);
     light.zero_plane = std::cos(turn) * zero + std::sin(turn) * glm::cross(zero, light.direction);
-    if (const auto file = existing_file(section, "profile", true); is_file(file))
-        note(section, "profile", [&] { light.profile = read_ies(file); });
     return light;
 }
 
 SunLight SceneReader::read_sun(const Section &section) {
     return {.to_light =
-                direction_of(section.number("azimuth_deg", -360, 360).value_or(-40) * kDegree,
+                direction_at(section.number("azimuth_deg", -360, 360).value_or(-40) * kDegree,
                              section.number("elevation_deg", -90, 90).value_or(45) * kDegree),
             .angular_radius =
                 0.5 * section.number("diameter_deg", 0, 180).value_or(kSunDiameterDeg) * kDegree,
@@ -181,39 +213,44 @@ SunLight SceneReader::read_sun(const Section &section) {
             .shadows = section.flag("shadows").value_or(true)};
 }
 
-void SceneReader::read_strength(const Section &section, const glm::dvec3 &target, Light &light) {
-    const auto place = place_of(light);
+SceneReader::GivenStrength SceneReader::read_strength(const Section &section,
+                                                      const std::string &kind) {
     std::vector<const char *> units{"strength", "lux"};
-    if (place)
+    if (kind != "sun")
         units.push_back("lumen");
-    const auto *const point = std::get_if<PointLight>(&light);
-    if (point && !point->profile)
+    if (kind == "point" || kind == "spot")
         units.push_back("candela");
-    else if (place && !point)
+    else if (kind != "ies" && kind != "sun")
         units.push_back("radiance");
+    // A profile has candelas of its own
+    GivenStrength given{.unit = kind == "ies" ? "candela" : "strength"};
     const char *unit = nullptr;
-    double value = 1;
     for (const char *const key : units)
-        if (const auto given = section.number(key, 0, 1e9)) {
+        if (const auto value = section.number(key, 0, 1e9)) {
             if (unit)
                 section.problem(key, std::string(unit) + " and " + key + " are both given",
                                 "expected one of them");
-            unit = key;
-            value = *given;
+            given = {.unit = unit = key, .value = *value};
         }
-    // A profile has candelas of its own
-    const std::string_view given = unit ? unit : (point && point->profile ? "candela" : "strength");
+    if (kind != "sun" && (given.unit == "strength" || given.unit == "lux"))
+        given.at = section.vector("at");
+    return given;
+}
+
+void SceneReader::give_strength(const Section &section, const GivenStrength &given,
+                                const glm::dvec3 &target, Light &light) {
+    const auto place = place_of(light);
     const double unit_of_lux = kPi / white_lux_; // see light.h
     double &emission = emission_of(light);
     emission = 1;
-    if (given == "radiance") {
-        emission = value;
-    } else if (given == "candela") {
-        emission = value * unit_of_lux;
-    } else if (given == "lumen") {
-        emission = value * unit_of_lux / flux(light);
+    if (given.unit == "radiance") {
+        emission = given.value;
+    } else if (given.unit == "candela") {
+        emission = given.value * unit_of_lux;
+    } else if (given.unit == "lumen") {
+        emission = given.value * unit_of_lux / flux(light);
     } else {
-        const glm::dvec3 at = place ? section.vector("at").value_or(target) : kTarget;
+        const glm::dvec3 at = place ? given.at.value_or(target) : kTarget;
         const glm::dvec3 to_light = place ? place->centre - at : std::get<SunLight>(light).to_light;
         const double distance = glm::length(to_light);
         const double unscaled = distance > 0 && (!place || distance > place->radius ||
@@ -221,9 +258,10 @@ void SceneReader::read_strength(const Section &section, const glm::dvec3 &target
                                     ? irradiance(light, at, to_light / distance)
                                     : 0;
         if (!(unscaled > 0))
-            return section.problem(given, "the light does not reach the point of this strength",
+            return section.problem(given.unit,
+                                   "the light does not reach the point of this strength",
                                    "expected another 'at', or another unit");
-        emission = value * (given == "lux" ? unit_of_lux : kPi) / unscaled;
+        emission = given.value * (given.unit == "lux" ? unit_of_lux : kPi) / unscaled;
     }
 }
 

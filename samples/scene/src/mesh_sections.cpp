@@ -119,11 +119,16 @@ void SceneReader::read_cloth(const Section &section, MeshEntry &entry) {
 
 void SceneReader::read_grain(const Section &grain, MeshEntry &entry) {
     // The document knows a key once it was read, so the panels' names are read.
-    note(grain, "", [&] {
-        for (const std::string &panel : garment::read_mesh(entry.mesh, progress_).mesh.panel_name)
-            if (const auto angle = grain.number(panel, -360, 360))
-                entry.options.frames.grain[panel] = *angle * kDegree;
-    });
+    std::vector<std::string> panels;
+    try {
+        panels = garment::read_mesh(entry.mesh, progress_).mesh.panel_name;
+    } catch (const Error &error) {
+        grain.problem("", error);
+        return grain.leave_unjudged();
+    }
+    for (const std::string &panel : panels)
+        if (const auto angle = grain.number(panel, -360, 360))
+            entry.options.frames.grain[panel] = *angle * kDegree;
 }
 
 } // namespace tsuya::scene

@@ -17,7 +17,7 @@ NamedLamp lamp_of(const std::string &spec) {
         if (spec == kEnvironmentLampNames[k])
             return {.name = spec, .spectrum = environment_lamps()[k]};
     NamedLamp lamp = find_lamp(spec);
-    lamp.name = file_stem_of(spec);
+    lamp.name = label_of(spec);
     return lamp;
 }
 

@@ -1,6 +1,7 @@
 #include "tsuya/scene/picture.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iomanip>
 #include <set>
 #include <sstream>
@@ -29,9 +30,8 @@ NamedSpec split_spec(const std::string &spec) {
     return {spec.substr(0, equals), spec.substr(equals + 1)};
 }
 
-/// A lamp that is called as its files are.
-NamedLamp with_file_name(NamedLamp lamp) {
-    lamp.name = file_stem_of(lamp.name);
+NamedLamp labelled(NamedLamp lamp) {
+    lamp.name = label_of(lamp.name);
     return lamp;
 }
 
@@ -74,27 +74,43 @@ Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> l
     return picture;
 }
 
+std::string label_of(const std::string &spec) {
+    const auto file = parse_spectrum_file_spec(spec);
+    if (!file || spec.find('*') != spec.npos) // a mixture
+        return spec;
+    return file->path.stem().string() + (file->sample.empty() ? "" : ":" + file->sample);
+}
+
 std::string file_stem_of(const std::string &spec) {
-    std::string stem = spec;
-    if (const auto file = parse_spectrum_file_spec(spec))
-        stem = file->path.stem().string() + (file->sample.empty() ? "" : "_" + file->sample);
-    std::erase_if(
-        stem, [](char c) { return std::string_view("#*%()").find(c) != std::string_view::npos; });
-    std::replace(stem.begin(), stem.end(), '/', '_');
-    std::replace(stem.begin(), stem.end(), ' ', '_');
+    std::string stem = label_of(spec);
+    const auto one_of = [](std::string_view all) {
+        return [all](char c) { return all.find(c) != all.npos; };
+    };
+    std::erase_if(stem, one_of("#*%()"));
+    std::replace_if(stem.begin(), stem.end(), one_of("/: "), '_');
     return stem;
+}
+
+void check_distinct(std::span<const std::string> specs, const std::string &kind) {
+    std::set<std::string> names;
+    for (const std::string &spec : specs) {
+        const std::string name = file_stem_of(spec);
+        std::string folded = name; // some file systems do not tell cases apart
+        for (char &c : folded)
+            c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (!names.insert(folded).second)
+            throw Error({"two " + kind + "s have the name '" + name + "', the last is " + spec,
+                         kind, "expected each " + kind + " once, and files of different names"});
+    }
 }
 
 void check_lamps(std::span<const std::string> specs) {
     if (specs.empty())
         throw Error({"no lamp is named", "lamps", "expected such as D65,A"});
-    std::set<std::string> names;
-    for (const std::string &spec : expand_lamp_sets(specs)) {
+    const std::vector<std::string> all = expand_lamp_sets(specs);
+    for (const std::string &spec : all)
         check_lamp_spec(spec);
-        if (const std::string name = file_stem_of(spec); !names.insert(name).second)
-            throw Error({"two lamps have the name '" + name + "', the last is " + spec, "lamps",
-                         "expected each lamp once, and files of different names"});
-    }
+    check_distinct(all, "lamp");
 }
 
 std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
@@ -102,7 +118,7 @@ std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
     check_lamps(specs);
     std::vector<NamedLamp> lamps;
     for (const std::string &spec : expand_lamp_sets(specs))
-        lamps.push_back(with_file_name(find_lamp(spec, folder, sample)));
+        lamps.push_back(labelled(find_lamp(spec, folder, sample)));
     return lamps;
 }
 
@@ -145,7 +161,7 @@ std::vector<NamedLamp> parse_group_lamps(std::span<const std::string> specs,
         if (spec.empty())
             throw Error({"light group '" + groups[g] + "' has no lamp", "lamp",
                          "expected " + groups[g] + "=LAMP, or a LAMP for all"});
-        lamps.push_back(with_file_name(find_lamp(spec, folder, sample)));
+        lamps.push_back(labelled(find_lamp(spec, folder, sample)));
     }
     return lamps;
 }

@@ -15,6 +15,7 @@
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
+#include "tsuya/sdk/plan.h"
 namespace tsuya::scene {
 namespace {
 
@@ -46,17 +47,26 @@ std::map<std::string, std::string> places_of(const SceneFile &file) {
         places["lights[" + std::to_string(i) + "]"] =
             file.light_places[i] + ": lights." + name_of(file.lights[i]);
     return places;
+    for (const FabricEntry &fabric : file.fabrics) {
+        const std::string key = "fabrics." + fabric.name;
+        places[key] = fabric.where + ": " + key;
+        if (fabric.open_dye)
+            places.try_emplace("open_dyes", fabric.where + ": " + key + ".dye");
+    }
 }
 
-/// The problems of check_scene with the places and names of the file.
+/// The problems of a scene with the places and names of the file.
 Error in_words_of(const SceneFile &file, const Error &error) {
     const std::map<std::string, std::string> places = places_of(file);
     std::vector<Problem> problems = error.problems();
     for (Problem &problem : problems) {
-        const std::size_t end = problem.where.find(']') + 1; // 0: none
-        const auto place = places.find(problem.where.substr(0, end));
-        if (place != places.end())
-            problem.where = place->second + problem.where.substr(end);
+        const std::string where = problem.where;
+        for (const auto &[part, place] : places) { // of several that begin it, the last is longest
+            const bool of_part = where.starts_with(part) &&
+                                 (where.size() == part.size() || where[part.size()] == '.');
+            if (of_part)
+                problem.where = place + where.substr(part.size());
+        }
     }
     return Error(std::move(problems)).within(file.path.string());
 }
@@ -66,18 +76,18 @@ bool looks_at_f0(const CarriedViews &views) {
     return views.model != ViewModel::ggx && views.model != ViewModel::lambert;
 }
 
-void set_f0(Fabric &fabric, double f0, const std::string &scene_file) {
+void set_f0(Fabric &fabric, double f0, const std::string &where) {
     CarriedViews *const views = std::get_if<CarriedViews>(&fabric.specular);
     if (!views || !looks_at_f0(*views))
         throw Error({"f0 has no meaning for this fabric: its specular part does not look at it",
-                     scene_file + ": fabrics." + fabric.name + ".f0",
+                     where + ": fabrics." + fabric.name + ".f0",
                      "expected a fabric with [views] and a model that carries them: yarn, takeda, "
                      "takeda_printed or half_vector"});
     views->f0 = f0;
 }
 
 /// \param fabric as its file has it; without file empty
-Fabric as_entered(Fabric fabric, const FabricEntry &entry, const std::string &scene_file) {
+Fabric as_entered(Fabric fabric, const FabricEntry &entry) {
     if (entry.file.empty())
         fabric.colours.dye = Spectrum::constant(kPlainReflectance);
     fabric.name = entry.name;
@@ -93,7 +103,7 @@ Fabric as_entered(Fabric fabric, const FabricEntry &entry, const std::string &sc
     if (entry.delustre)
         fabric.colours.delustre = entry.delustre;
     if (entry.f0)
-        set_f0(fabric, *entry.f0, scene_file);
+        set_f0(fabric, *entry.f0, entry.where);
     if (entry.transmittance)
         fabric.colours.transmittance = *entry.transmittance;
     if (entry.specular_tint)
@@ -172,7 +182,7 @@ struct SceneBuilder {
         for (const FabricEntry &entry : file.fabrics) {
             if (!files.contains(entry.file))
                 files[entry.file] = read_cloth(entry.file, progress);
-            scene.fabrics.push_back(as_entered(files[entry.file], entry, file.path.string()));
+            scene.fabrics.push_back(as_entered(files[entry.file], entry));
         }
         add_pictures(file.patterns, file.opacities, scene);
         for (std::uint32_t i = 0; i < file.fabrics.size(); ++i)
@@ -242,6 +252,8 @@ struct SceneBuilder {
     void keep_frames() {
         std::vector<std::size_t> moving;
         for (std::size_t m = 0; m < meshes.count(); ++m)
+            if (!built.scene.open_dyes.empty())
+                dye_variables(built.scene);
             if (meshes.frame_count(m) > 1)
                 moving.push_back(m);
         if (frames > 1 && moving.empty())

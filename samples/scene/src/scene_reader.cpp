@@ -34,6 +34,7 @@ void SceneReader::read() {
     read_environment();
     read_render();
     read_output();
+    check_own_lamps();
     if (file_.garments.empty() && file_.bodies.empty())
         root_.problem("garments", "the scene has no garment and no body",
                       "expected [garments.NAME] with mesh and fabric");

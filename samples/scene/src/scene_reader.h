@@ -2,10 +2,13 @@
 // From the sections of a scene file to a SceneFile. Problems are noted in the document.
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tsuya/scene/scene_file.h"
+#include "tsuya/scene/studio_preset.h"
 #include "tsuya/sdk/document.h"
 #include "tsuya/sdk/error.h"
 
@@ -56,8 +59,16 @@ class SceneReader {
     PointLight read_luminaire(const Section &section, const glm::dvec3 &target);
     SunLight read_sun(const Section &section);
     LightBehaviour read_behaviour(const Section &section);
-    // Scales a light to what its section says of its strength, in one of several units.
-    void read_strength(const Section &section, const glm::dvec3 &target, Light &light);
+    // What a section says of the strength of its light, in one of several units.
+    struct GivenStrength {
+        std::string_view unit{};
+        double value = 1;
+        std::optional<glm::dvec3> at{}; // the point of it; empty: the target
+    };
+    GivenStrength read_strength(const Section &section, const std::string &kind);
+    // Scales a light to its strength.
+    void give_strength(const Section &section, const GivenStrength &given, const glm::dvec3 &target,
+                       Light &light);
     glm::dvec3 centre_of(const Section &section);
     // From the centre of a light to its target.
     static glm::dvec3 facing(const glm::dvec3 &centre, const glm::dvec3 &target);
@@ -71,6 +82,10 @@ class SceneReader {
     void read_render();
     void read_output();
 
+    // The lamp that the studio's lights in a group of this name have; empty: there are none.
+    std::string lamp_of_studio(const std::string &group) const;
+    // Pictures under the lights' own lamps need one for every group.
+    void check_own_lamps();
     // Index of a light group by name, made where it is new.
     LightGroupIndex group(const Section &section, const std::string &otherwise);
     // `dye` or `reflectance`.
@@ -111,5 +126,6 @@ class SceneReader {
     bool names_light_ = false;
     double white_lux_ = 1000;
 };
+    std::vector<StudioGroup> studio_groups_{};
 
 } // namespace tsuya::scene

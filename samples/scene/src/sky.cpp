@@ -33,9 +33,9 @@ constexpr std::array<SkyType, 15> kTypes{{{4.0, -0.70, 0, -1.0, 0},
                                           {-1.0, -0.15, 24, -2.8, 0.15}}};
 
 /// The direction of a pixel's middle, as Environment has it.
-glm::dvec3 direction_at(const Image &picture, int x, int y) {
+glm::dvec3 direction_of_pixel(const Image &picture, int x, int y) {
     const double azimuth = 2 * kPi * ((x + 0.5) / picture.width - 0.5);
-    return direction_of(azimuth, kHalfPi - kPi * (y + 0.5) / picture.height);
+    return direction_at(azimuth, kHalfPi - kPi * (y + 0.5) / picture.height);
 }
 
 /// Of the first `channels` channels, with radiance 1.
@@ -69,11 +69,11 @@ Image gradient_picture(double below, double horizon, double above) {
 
 Image sky_picture(const Sky &sky) {
     const auto [a, b, c, d, e] = kTypes.at(static_cast<std::size_t>(sky.type - 1));
-    const glm::dvec3 sun = direction_of(sky.azimuth, std::max(sky.elevation, 0.0));
+    const glm::dvec3 sun = direction_at(sky.azimuth, std::max(sky.elevation, 0.0));
     Image picture = Image::make(kSkyWidth, kSkyHeight, {"Y"});
     for (int y = 0; y < kSkyHeight; ++y)
         for (int x = 0; x < kSkyWidth; ++x) {
-            const glm::dvec3 up = direction_at(picture, x, y);
+            const glm::dvec3 up = direction_of_pixel(picture, x, y);
             if (up.y <= 0)
                 continue;
             // [ISO15469] Eqs. 1 to 4, but for the values at the zenith

@@ -110,7 +110,7 @@ void stand_parallel(const std::vector<glm::dvec3> &points, const Framing &f, con
 
 } // namespace
 
-glm::dvec3 direction_of(double azimuth, double elevation) {
+glm::dvec3 direction_at(double azimuth, double elevation) {
     return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
             std::cos(azimuth) * std::cos(elevation)};
 }
@@ -120,7 +120,7 @@ Surface make_cyclorama(const Cyclorama &c) {
          "a length is not above 0", "backdrop", "expected width, front and radius above 0 metres");
     need(c.back > c.radius && c.height > c.radius && std::isfinite(c.back + c.height),
          "the bend does not fit", "backdrop", "expected back and height above the radius");
-    const glm::dvec3 front = direction_of(c.azimuth, 0);
+    const glm::dvec3 front = direction_at(c.azimuth, 0);
     const glm::dvec3 side = glm::cross(glm::dvec3(0, 1, 0), front);
     Surface surface;
     for (const ProfilePoint &p : profile_of(c))
@@ -173,7 +173,7 @@ Camera frame_points(const std::vector<glm::dvec3> &points, const Framing &f) {
          "expected more than -90 and less than 90 degrees");
     need(!f.orthographic_height || *f.orthographic_height > 0, "the height is wrong", "camera",
          "expected an orthographic height above 0 m");
-    const glm::dvec3 back = direction_of(f.azimuth, f.elevation);
+    const glm::dvec3 back = direction_at(f.azimuth, f.elevation);
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
     const CameraAxes axes{right, glm::cross(back, right), -back};
     Camera camera{.vertical_angle = f.vertical_angle,

@@ -98,7 +98,7 @@ class Builder {
 
   private:
     glm::dvec3 towards(double right_deg, double up_deg) const {
-        return direction_of(subject_.azimuth + right_deg * kDegree, up_deg * kDegree);
+        return direction_at(subject_.azimuth + right_deg * kDegree, up_deg * kDegree);
     }
     glm::dvec3 at(const Stand &s) const {
         return middle_ + s.distance * metre_ * towards(s.right_deg, s.up_deg);

@@ -17,31 +17,50 @@ Subject subject_of(const std::vector<glm::dvec3> &points, double azimuth) {
     return subject;
 }
 
+// The number of groups where there is none of the name.
+std::size_t index_of_group(const Scene &scene, const std::string &name) {
+    return static_cast<std::size_t>(std::ranges::find(scene.light_groups, name) -
+                                    scene.light_groups.begin());
+}
+
 } // namespace
+
+std::vector<StudioGroup> lit_groups(const Studio &studio, bool environment) {
+    std::vector<bool> lit(studio.groups.size(), false);
+    for (const Light &light : studio.lights)
+        std::visit([&](const auto &l) { lit[l.group.value] = true; }, light);
+    if (environment && studio.environment)
+        lit[studio.environment->group.value] = true;
+    std::vector<StudioGroup> groups;
+    for (std::size_t g = 0; g < lit.size(); ++g)
+        if (lit[g])
+            groups.push_back(studio.groups[g]);
+    return groups;
+}
 
 void add_studio_to(Scene &scene, std::vector<std::string> &own_lamps, const std::string &name,
                    const std::vector<glm::dvec3> &points, double azimuth, bool backdrop) {
     Studio studio = make_studio(name, subject_of(points, azimuth));
-    std::vector<LightGroupIndex> group_of;
+    const bool takes_environment = studio.environment && !scene.environment;
     own_lamps.resize(scene.light_groups.size());
-    for (const StudioGroup &group : studio.groups) {
-        const auto found =
-            std::find(scene.light_groups.begin(), scene.light_groups.end(), group.name);
-        const auto index = static_cast<std::size_t>(found - scene.light_groups.begin());
-        if (found == scene.light_groups.end()) {
+    for (const StudioGroup &group : lit_groups(studio, takes_environment)) {
+        const std::size_t index = index_of_group(scene, group.name);
+        if (index == scene.light_groups.size()) {
             scene.light_groups.push_back(group.name);
             own_lamps.emplace_back();
         }
         if (own_lamps[index].empty())
             own_lamps[index] = group.lamp;
-        group_of.push_back({static_cast<std::uint32_t>(index)});
     }
+    const auto in_scene = [&](LightGroupIndex group) -> LightGroupIndex {
+        return {static_cast<std::uint32_t>(index_of_group(scene, studio.groups[group.value].name))};
+    };
     for (Light &light : studio.lights) {
-        std::visit([&](auto &l) { l.group = group_of[l.group.value]; }, light);
+        std::visit([&](auto &l) { l.group = in_scene(l.group); }, light);
         scene.lights.push_back(std::move(light));
     }
-    if (studio.environment && !scene.environment) {
-        studio.environment->group = group_of[studio.environment->group.value];
+    if (takes_environment) {
+        studio.environment->group = in_scene(studio.environment->group);
         scene.environment = std::move(studio.environment);
     }
     if (!backdrop)

@@ -9,6 +9,10 @@
 
 namespace tsuya::scene {
 
+// The groups of a studio that something shines in: its lights, and its environment where the scene
+// takes it.
+std::vector<StudioGroup> lit_groups(const Studio &studio, bool environment);
+
 // Adds the lights of a studio about points, in groups of their names; its environment and its
 // backdrop where the scene is to have them. \param own_lamps of the scene's groups, in their order;
 // grows with them

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "dressing.h"
 #include "file_opacity.h"
@@ -35,7 +34,7 @@ constexpr double kBodyReflectance = 0.35;
 constexpr double kElevation = 3 * kDegree;    // of the camera
 constexpr double kAngleOfView = 24 * kDegree; // an 85 mm lens on 36 mm film
 
-/// A dye with the name that its files bear.
+/// A dye by its label.
 struct TryOnDye {
     std::string name;
     std::optional<Spectrum> spectrum; ///< empty: the fabric's own
@@ -47,7 +46,7 @@ std::vector<TryOnDye> parse_dyes(const TryOn &job) {
     std::vector<TryOnDye> dyes;
     for (const std::string &spec : job.dyes) {
         NamedDye dye = find_dye(spec);
-        dyes.push_back({file_stem_of(spec), std::move(dye.spectrum), std::move(dye.warnings)});
+        dyes.push_back({label_of(spec), std::move(dye.spectrum), std::move(dye.warnings)});
     }
     return dyes;
 }
@@ -216,7 +215,7 @@ void write_videos(const std::vector<TryOnDye> &dyes, const std::vector<NamedLamp
         for (const NamedLamp &lamp : lamps)
             try {
                 const fs::path file = job.output / video_name(dye.name, lamp.name);
-                write_video(file, job.output / (dye.name + "-" + lamp.name), job.video_fps);
+                write_video(file, fs::path(file).replace_extension(), job.video_fps);
                 result.files.push_back(file);
             } catch (const Error &error) {
                 const std::vector<Problem> &problems = error.problems();
@@ -247,13 +246,9 @@ void add_spectrum_warnings(const std::vector<TryOnDye> &dyes, const std::vector<
 } // namespace
 
 void check_dyes(const std::vector<std::string> &specs) {
-    std::set<std::string> names;
-    for (const std::string &spec : specs) {
+    for (const std::string &spec : specs)
         check_dye_spec(spec);
-        if (const std::string name = file_stem_of(spec); !names.insert(name).second)
-            throw Error({"two dyes have the name '" + name + "', the last is " + spec, "dye",
-                         "expected each dye once, and files of different names"});
-    }
+    check_distinct(specs, "dye");
 }
 
 TryOn sample_try_on(const fs::path &data) {

@@ -1,7 +1,6 @@
 #include "tryon_files.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "tryon_page.h"
 #include "tsuya/color/dye.h"
@@ -28,16 +27,16 @@ std::string number_in(const fs::path &file) {
 std::string own_dye_name(const TryOn &job) { return job.fabric.stem().stem().string(); }
 
 std::string transport_name(const std::string &dye, const std::string &number) {
-    return dye + number + ".exr";
+    return file_stem_of(dye) + number + ".exr";
 }
 
 std::string picture_name(const std::string &dye, const std::string &lamp,
                          const std::string &number) {
-    return dye + "-" + lamp + number + ".png";
+    return file_stem_of(dye) + "-" + file_stem_of(lamp) + number + ".png";
 }
 
 std::string video_name(const std::string &dye, const std::string &lamp) {
-    return dye + "-" + lamp + ".mp4";
+    return file_stem_of(dye) + "-" + file_stem_of(lamp) + ".mp4";
 }
 
 SpectralImage finished(const fs::path &exr, const std::string &key) {
@@ -55,22 +54,21 @@ std::vector<fs::path> replaced_files(const TryOn &job) {
     const bool one_shape = job.frames.empty() && job.turntable == 0;
     const bool numbered = !one_shape || job.morph_targets;
     const std::vector<std::string> lamps = expand_lamp_sets(job.lamps);
-    std::vector<std::string> dyes;
-    std::transform(job.dyes.begin(), job.dyes.end(), std::back_inserter(dyes), file_stem_of);
+    std::vector<std::string> dyes = job.dyes;
     if (dyes.empty() || job.keeps_own_dye)
         dyes.push_back(own_dye_name(job));
     const auto is_result = [&](const std::string &name, const std::string &number) {
         return std::any_of(dyes.begin(), dyes.end(), [&](const std::string &dye) {
             return name == transport_name(dye, number) ||
                    std::any_of(lamps.begin(), lamps.end(), [&](const std::string &lamp) {
-                       return name == picture_name(dye, file_stem_of(lamp), number);
+                       return name == picture_name(dye, lamp, number);
                    });
         });
     };
     const auto is_video = [&](const std::string &name) {
         return std::any_of(dyes.begin(), dyes.end(), [&](const std::string &dye) {
             return std::any_of(lamps.begin(), lamps.end(), [&](const std::string &lamp) {
-                return name == video_name(dye, file_stem_of(lamp));
+                return name == video_name(dye, lamp);
             });
         });
     };

@@ -34,7 +34,7 @@ void write_try_on_page(const std::vector<PageDress> &dresses, const std::vector<
                         .lamps = page_lamps(dresses.front().image, lamps),
                         .look = job.look};
     for (const std::string &spec : job.dyes)
-        options.dyes.push_back({file_stem_of(spec), parse_dye(spec)});
+        options.dyes.push_back({label_of(spec), parse_dye(spec)});
     LivePage page = live_page(dresses, options);
     result.files.push_back(job.output / kTryOnPage);
     write_file(result.files.back(), page.html);

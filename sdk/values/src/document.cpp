@@ -20,7 +20,7 @@ struct detail::DocumentState {
     toml::table root;
     Problems problems;
     std::map<const toml::table *, std::set<std::string, std::less<>>> asked;
-    std::set<const toml::table *> open; ///< tables whose keys are all the author's
+    std::set<const toml::table *> open; ///< tables whose keys are not judged
 
     std::string place(const toml::source_region &source) const {
         return file + ":" + std::to_string(source.begin.line) + ":" +
@@ -45,6 +45,10 @@ void find_unknown(const detail::DocumentState &state, const toml::table &table,
                           accepted_names(name, known)});
         else if (const toml::table *inner = node.as_table())
             find_unknown(state, *inner, problems);
+        else if (const toml::array *list = node.as_array())
+            for (const toml::node &element : *list)
+                if (const toml::table *of_list = element.as_table())
+                    find_unknown(state, *of_list, problems);
     }
 }
 
@@ -88,6 +92,25 @@ std::string Section::where(std::string_view key) const {
         return state_->place(node->source());
     return table.source().begin ? state_->place(table.source()) : state_->file + ":1:1";
 }
+
+std::vector<Section> Section::list(std::string_view key) const {
+    if (!has(key))
+        return {};
+    const toml::array *const array = table_of(table_).get(key)->as_array();
+    std::vector<Section> all;
+    for (std::size_t i = 0; array && i < array->size(); ++i)
+        if (const toml::table *const table = array->get(i)->as_table()) {
+            state_->asked[table];
+            all.push_back(Section(state_, table));
+        }
+    if (array && !array->empty() && all.size() == array->size())
+        return all;
+    problem(key, "'" + std::string(key) + "' is no list of tables",
+            "expected [[" + std::string(key) + "]]");
+    return {};
+}
+
+void Section::leave_unjudged() const { state_->open.insert(&table_of(table_)); }
 
 void Section::problem(std::string_view key, std::string what, std::string accepted) const {
     state_->problems.add({std::move(what), where(key), std::move(accepted)});

@@ -2,6 +2,7 @@
 /// \file
 /// The panels of a mesh: by name, and by UV island.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,5 +29,8 @@ std::vector<std::uint32_t> find_panels(const PolygonMesh &mesh, std::string_view
 /// The same. Throws Error naming `where`, with the nearest names, where there is none.
 std::vector<std::uint32_t> panels_named(const PolygonMesh &mesh, std::string_view pattern,
                                         const std::string &where);
+
+/// The area of face `f` in the UV plane; negative where it is mirrored, 0 without UV.
+double uv_area(const PolygonMesh &mesh, std::size_t f);
 
 } // namespace tsuya::garment

@@ -30,9 +30,9 @@ Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> l
                     const DisplayOptions &look = default_look());
 
 /// Lamps as programs name them, such as `D65` or `my/lamp.csv`; a name of `lamp_sets()` stands for
-/// several. A lamp of a file is called by the file's name without the extension. Throws Error as
-/// find_lamp, and for a name used twice or none. \param sample which of several spectra a file has,
-/// where the spec does not say so
+/// several. Each is called as label_of says. Throws Error as
+/// find_lamp, and for none or two whose files would have one name. \param sample which of several
+/// spectra a file has, where the spec does not say so
 std::vector<NamedLamp> parse_lamps(std::span<const std::string> specs,
                                    const std::filesystem::path &folder = {},
                                    const std::string &sample = {});
@@ -61,8 +61,16 @@ std::vector<std::string> show_dyes(SpectralImage &image, std::span<const std::st
 /// A line about a page that was written: its file, size, and the errors of its colours.
 std::string page_summary(const std::filesystem::path &file, const LivePage &page);
 
-/// The part of a file name that stands for a dye or lamp: `crimson`; `x` of `my/x.csv`, `x_navy` of
-/// `my/x.csv:navy`; `aabbcc` of `#aabbcc`.
+/// What a dye or lamp is called in words: `#aabbcc`, `0.5*A`; `x` of `my/x.csv`, `x:navy` of
+/// `my/x.csv:navy`.
+std::string label_of(const std::string &spec);
+
+/// The part of a file name that stands for a dye or lamp, from how programs name it or from its
+/// label: `crimson`; `x_navy` of `my/x.csv:navy`; `aabbcc` of `#aabbcc`, `0.5A` of `0.5*A`.
 std::string file_stem_of(const std::string &spec);
+
+/// Throws Error for two dyes or lamps whose files would have one name: `CRIMSON` and `crimson`,
+/// `a/x.csv` and `b/x.csv`. \param kind `dye`, `lamp`
+void check_distinct(std::span<const std::string> specs, const std::string &kind);
 
 } // namespace tsuya::scene

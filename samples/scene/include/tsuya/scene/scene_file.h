@@ -29,6 +29,7 @@ namespace tsuya::scene {
 struct FabricEntry {
     std::string name{};
     std::filesystem::path file{};  ///< empty: a plain diffuser
+    std::string where{};           ///< file:line:column
     std::optional<Spectrum> dye{}; ///< empty: the file's own, or 0.5 for a plain diffuser
     bool open_dye = false;         ///< see Scene::open_dyes
     /// Empty: the file's own

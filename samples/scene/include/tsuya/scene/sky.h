@@ -16,7 +16,7 @@ Image gradient_picture(double below, double horizon, double above);
 /// of the sun.
 struct Sky {
     int type = 12; ///< 1 to 15: 1 is overcast, 5 the same everywhere, 12 clear with a low turbidity
-    double azimuth = -40 * kDegree; ///< of the sun, as scene::direction_of
+    double azimuth = -40 * kDegree; ///< of the sun, as scene::direction_at
     /// Of the sun above the horizon, radians, 0 to pi / 2; below, the sky is that of 0.
     double elevation = 45 * kDegree;
     /// Radiance below the horizon; 1 is that of a white diffuser under the sky.

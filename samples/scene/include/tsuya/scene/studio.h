@@ -69,7 +69,8 @@ Camera frame_points(const std::vector<glm::dvec3> &points, const Framing &framin
 /// the view, not above 0 behind the camera.
 glm::dvec3 project_point(const Camera &camera, const glm::dvec3 &point);
 
-/// The unit direction of an azimuth and elevation as used above.
-glm::dvec3 direction_of(double azimuth, double elevation);
+/// The unit direction of an azimuth and elevation as used above; of polar angles, see
+/// tsuya::direction_of.
+glm::dvec3 direction_at(double azimuth, double elevation);
 
 } // namespace tsuya::scene

@@ -67,6 +67,12 @@ class Section {
     /// All tables in the table, in the order of the file: `[fabrics.satin]`, `[fabrics.lining]`.
     std::vector<std::pair<std::string, Section>> sections() const;
 
+    /// The tables of an array, such as `[[camera.path]]`, in their order; none where absent.
+    std::vector<Section> list(std::string_view key) const;
+
+    /// Keys of the section that nobody reads are no unknown keys: what would tell them is wrong.
+    void leave_unjudged() const;
+
     /// Notes a problem at a key.
     void problem(std::string_view key, std::string what, std::string accepted) const;
     /// Notes the problems of an error at a key. One that has a place in a file of its own keeps it,
