@@ -180,6 +180,28 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"ExposureOfAnotherText", "samples_per_pixel = 4",
                  "samples_per_pixel = 4\n[output]\nexposure = \"meter\"", "18:12", "another text",
                  "metered"},
+        BadInput{"PathOfOneKey", "width = 16",
+                 "path = [{ at = 0, eye = [0, 1, 3], target = [0, 1, 0] }]", "2:8", "no end",
+                 "from at = 0 to at = 1"},
+        BadInput{"PathThatDoesNotRise", "width = 16",
+                 "path = [{ at = 0, eye = [0, 1, 3], target = [0, 1, 0] }, "
+                 "{ at = 1, eye = [0, 1, 2], target = [0, 1, 0] }, "
+                 "{ at = 1, eye = [0, 1, 1], target = [0, 1, 0] }]",
+                 "2:114", "does not rise", "order"},
+        BadInput{"KeyWithoutEye", "width = 16",
+                 "path = [{ at = 0, target = [0, 1, 0] }, "
+                 "{ at = 1, eye = [0, 1, 2], target = [0, 1, 0] }]",
+                 "2:9", "'eye' is missing", "[0, 1, 3]"},
+        BadInput{"UnknownKeyOfAKey", "width = 16",
+                 "path = [{ at = 0, eye = [0, 1, 3], target = [0, 1, 0], ups = 1 }, "
+                 "{ at = 1, eye = [0, 1, 2], target = [0, 1, 0] }]",
+                 "2:56", "'ups'", "at, eye"},
+        BadInput{"PathAndEye", "width = 16",
+                 "eye = [0, 1, 3]\npath = [{ at = 0, eye = [0, 1, 3], target = [0, 1, 0] }, "
+                 "{ at = 1, eye = [0, 1, 2], target = [0, 1, 0] }]",
+                 "2:7", "beside a path", "camera.path"},
+        BadInput{"PathThatIsNoList", "width = 16", "path = 3", "2:8", "no list of tables",
+                 "[[path]]"},
         BadInput{"NotToml", "width = 16", "width = = 16", "2:9", "", "TOML"}),
     [](const auto &input) { return std::string(input.param.name); });
 

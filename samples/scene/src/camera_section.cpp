@@ -1,6 +1,7 @@
 // The camera of a scene file.
 
 #include <cmath>
+#include <utility>
 
 #include "scene_reader.h"
 #include "tsuya/sdk/angle.h"
@@ -17,6 +18,8 @@ void SceneReader::read_camera() {
     framing.height = camera->integer("height", 1, 32768).value_or(framing.height);
     framing.vertical_angle = camera->number("vertical_angle_deg", 0.1, 179).value_or(24) * kDegree;
     read_projection(*camera);
+    if (camera->has("path"))
+        return read_path(*camera);
     const auto eye = camera->vector("eye"), target = camera->vector("target"),
                up = camera->vector("up");
     if (!eye) {
@@ -47,6 +50,52 @@ void SceneReader::read_camera() {
     if (!(glm::length(glm::cross(c.target - c.eye, c.up)) > 0))
         camera->problem("target", "the camera looks nowhere or along its up direction",
                         "expected eye and target apart, and up not parallel to the view");
+}
+
+CameraKey SceneReader::read_key(const Section &section, double vertical_angle) {
+    CameraKey key{.at = section.required_number("at", 0, 1)};
+    const auto eye = section.vector("eye"), target = section.vector("target");
+    for (const auto &[name, given] : {std::pair("eye", &eye), std::pair("target", &target)})
+        if (!*given && !section.has(name))
+            section.problem(name, "'" + std::string(name) + "' is missing",
+                            "expected a point such as [0, 1, 3]");
+    key.eye = eye.value_or(key.eye);
+    key.target = target.value_or(key.target);
+    const auto angle_deg = section.number("vertical_angle_deg", 0.1, 179);
+    key.vertical_angle = angle_deg ? *angle_deg * kDegree : vertical_angle;
+    return key;
+}
+
+void SceneReader::read_path(const Section &camera) {
+    const Framing &framing = file_.framing;
+    for (const char *key : {"eye", "target", "azimuth_deg", "elevation_deg", "margin"})
+        if (camera.has(key))
+            camera.problem(key, std::string(key) + " has no meaning beside a path",
+                           "expected it in [[camera.path]], or no path");
+    if (framing.orthographic)
+        camera.problem("projection", "a camera on a path has a perspective",
+                       "expected no projection, or no path");
+    std::vector<CameraKey> &path = file_.camera_path;
+    for (const Section &section : camera.list("path")) {
+        const CameraKey key = read_key(section, framing.vertical_angle);
+        if (!path.empty() && !(key.at > path.back().at))
+            section.problem("at", "'at' does not rise", "expected keys in the order of their time");
+        path.push_back(key);
+    }
+    if (path.empty())
+        return;
+    const bool whole = path.size() >= 2 && path.front().at == 0 && path.back().at == 1;
+    if (!whole)
+        camera.problem("path", "the path has no beginning or no end",
+                       "expected [[camera.path]] twice or more, from at = 0 to at = 1");
+    file_.camera = Camera{.eye = path.front().eye,
+                          .target = path.front().target,
+                          .up = camera.vector("up").value_or(glm::dvec3(0, 1, 0)),
+                          .vertical_angle = path.front().vertical_angle,
+                          .width = framing.width,
+                          .height = framing.height,
+                          .lens = framing.lens,
+                          .shift = framing.shift};
 }
 
 void SceneReader::read_framing(const Section &camera) {

@@ -51,6 +51,7 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
             entry.options.seams.tolerance = 1e-3 * *sewing_mm;
         entry.options.strict = section.flag("strict").value_or(false);
         entry.tolerance_px = section.number("tolerance_px", 1e-3, 1e3);
+        entry.turn = section.number("turn_deg", -360, 360).value_or(0) * kDegree;
         entry.translate = section.vector("translate").value_or(glm::dvec3(0));
         entry.visible = section.flag("visible").value_or(true);
         entry.options.want_frames = yarn || has_pictures(entry);
@@ -118,7 +119,6 @@ void SceneReader::read_cloth(const Section &section, MeshEntry &entry) {
 }
 
 void SceneReader::read_grain(const Section &grain, MeshEntry &entry) {
-    // The document knows a key once it was read, so the panels' names are read.
     std::vector<std::string> panels;
     try {
         panels = garment::read_mesh(entry.mesh, progress_).mesh.panel_name;
@@ -126,6 +126,7 @@ void SceneReader::read_grain(const Section &grain, MeshEntry &entry) {
         grain.problem("", error);
         return grain.leave_unjudged();
     }
+    // The document knows a key once it was read, so the panels' names are read.
     for (const std::string &panel : panels)
         if (const auto angle = grain.number(panel, -360, 360))
             entry.options.frames.grain[panel] = *angle * kDegree;

@@ -12,10 +12,11 @@
 #include "scene_reader.h"
 #include "studio_stage.h"
 #include "tsuya/scene/read_cloth.h"
+#include "tsuya/sdk/detail/camera_check.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
-
 #include "tsuya/sdk/plan.h"
+
 namespace tsuya::scene {
 namespace {
 
@@ -46,13 +47,13 @@ std::map<std::string, std::string> places_of(const SceneFile &file) {
     for (std::size_t i = 0; i < file.light_places.size(); ++i)
         places["lights[" + std::to_string(i) + "]"] =
             file.light_places[i] + ": lights." + name_of(file.lights[i]);
-    return places;
     for (const FabricEntry &fabric : file.fabrics) {
         const std::string key = "fabrics." + fabric.name;
         places[key] = fabric.where + ": " + key;
         if (fabric.open_dye)
             places.try_emplace("open_dyes", fabric.where + ": " + key + ".dye");
     }
+    return places;
 }
 
 /// The problems of a scene with the places and names of the file.
@@ -120,6 +121,7 @@ SceneMesh read_entry(const MeshEntry &entry, std::size_t frames, const Progress 
     SceneMesh mesh{.where = entry.mesh.string(),
                    .options = entry.options,
                    .tolerance_px = entry.tolerance_px,
+                   .turn = entry.turn,
                    .translate = entry.translate};
     const bool moves = frames > 1 && (entry.morph_targets || !entry.frames.empty());
     if (!moves) {
@@ -154,6 +156,7 @@ SceneFile read_scene_file(const std::filesystem::path &path, const Progress &pro
 struct SceneFrames::State {
     SceneMeshes meshes;
     std::vector<std::size_t> moving{}; ///< which of them
+    std::vector<Camera> cameras{};     ///< of each frame; empty: it stands still
 };
 
 SceneFrames::SceneFrames() = default;
@@ -162,9 +165,12 @@ SceneFrames::SceneFrames(SceneFrames &&) noexcept = default;
 SceneFrames &SceneFrames::operator=(SceneFrames &&) noexcept = default;
 
 void SceneFrames::show(std::size_t frame, Scene &scene) {
-    if (state_)
-        for (const std::size_t m : state_->moving)
-            state_->meshes.show(m, frame, scene.surfaces[m]);
+    if (!state_)
+        return;
+    for (const std::size_t m : state_->moving)
+        state_->meshes.show(m, frame, scene.surfaces[m]);
+    if (!state_->cameras.empty())
+        scene.camera = state_->cameras[frame];
 }
 
 /// Puts the parts of a scene together, in this order.
@@ -228,9 +234,8 @@ struct SceneBuilder {
         built.own_lamps = file.own_lamps;
         scene.lights = file.lights;
         scene.environment = file.environment;
-        scene.camera = file.camera ? *file.camera : frame_points(meshes.points(), file.framing);
-        if (file.focus && scene.camera.lens)
-            scene.camera.lens->focus_distance = distance_along_view(scene.camera, *file.focus);
+        scene.camera =
+            focused(file.camera ? *file.camera : frame_points(meshes.points(), file.framing));
         if (!file.studio.empty()) {
             const glm::dvec3 back = scene.camera.eye - scene.camera.target;
             add_studio_to(scene, built.own_lamps, file.studio, meshes.points(),
@@ -238,9 +243,17 @@ struct SceneBuilder {
         }
     }
 
+    Camera focused(Camera camera) const {
+        if (file.focus && camera.lens)
+            camera.lens->focus_distance = distance_along_view(camera, *file.focus);
+        return camera;
+    }
+
     void check_and_refine() {
         try {
             check_scene(built.scene);
+            if (!built.scene.open_dyes.empty())
+                dye_variables(built.scene);
         } catch (const Error &error) {
             throw in_words_of(file, error);
         }
@@ -252,21 +265,47 @@ struct SceneBuilder {
     void keep_frames() {
         std::vector<std::size_t> moving;
         for (std::size_t m = 0; m < meshes.count(); ++m)
-            if (!built.scene.open_dyes.empty())
-                dye_variables(built.scene);
             if (meshes.frame_count(m) > 1)
                 moving.push_back(m);
-        if (frames > 1 && moving.empty())
+        if (frames > 1 && moving.empty() && file.camera_path.empty())
             throw Error({"nothing moves in the scene", file.path.string(),
-                         "expected frames or morph_targets of a garment or body"});
+                         "expected [[camera.path]], or frames or morph_targets of a garment or "
+                         "body"});
+        std::vector<Camera> cameras = cameras_of_frames();
         built.frames.count_ = frames;
         built.frames.state_ = std::make_unique<SceneFrames::State>(
-            SceneFrames::State{std::move(meshes), std::move(moving)});
+            SceneFrames::State{std::move(meshes), std::move(moving), std::move(cameras)});
+    }
+
+    /// On the path of the camera. Throws Error where one of them sees nothing.
+    std::vector<Camera> cameras_of_frames() const {
+        std::vector<Camera> cameras;
+        for (std::size_t frame = 0; frame < frames && !file.camera_path.empty(); ++frame) {
+            cameras.push_back(focused(
+                camera_between(file.camera_path, *file.camera, share_of_frame(frame, frames))));
+            try {
+                detail::check_camera(cameras.back());
+            } catch (const Error &error) {
+                throw error.at(file.path.string() + ": camera.path, frame " +
+                               std::to_string(frame));
+            }
+        }
+        return cameras;
+    }
+
+    /// Triangles as fine as one place of the camera needs them are too coarse for others.
+    void refuse_pixels_on_a_path() const {
+        for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
+            for (const MeshEntry &entry : *entries)
+                if (entry.tolerance_px && !file.camera_path.empty())
+                    throw Error({"the camera moves, and tolerance_px is of one place of it",
+                                 entry.where, "expected level or tolerance_mm"});
     }
 };
 
 BuiltScene build_scene(const SceneFile &file, const Progress &progress, std::size_t frames) {
     SceneBuilder builder{file, progress, frames};
+    builder.refuse_pixels_on_a_path();
     builder.add_fabrics();
     for (const std::vector<MeshEntry> *entries : {&file.garments, &file.bodies})
         for (const MeshEntry &entry : *entries)

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "pixel_tolerance.h"
+#include "turntable.h"
 
 namespace tsuya::scene {
 namespace {
@@ -11,6 +12,21 @@ namespace {
 constexpr int kFramingLevel = 1;
 
 } // namespace
+
+glm::dvec3 SceneMesh::in_scene(const glm::dvec3 &point) const {
+    return turned(point, glm::dvec3(0.0), turn) + translate;
+}
+
+glm::dvec3 SceneMesh::in_mesh(const glm::dvec3 &point) const {
+    return turned(point - translate, glm::dvec3(0.0), -turn);
+}
+
+void SceneMesh::stand(Surface &surface) const {
+    if (turn != 0)
+        surface = turned(surface, glm::dvec3(0.0), turn);
+    for (glm::dvec3 &p : surface.position)
+        p += translate;
+}
 
 Surface SceneMeshes::add(SceneMesh mesh) {
     if (mesh.tolerance_px)
@@ -36,7 +52,7 @@ void SceneMeshes::add_further_points(const SceneMesh &mesh) {
     for (const std::vector<glm::dvec3> &shape : mesh.further)
         for (std::size_t v = 0; v < shape.size(); ++v)
             if (used[v])
-                points_.push_back(garment::in_metres(mesh.options, shape[v]) + mesh.translate);
+                points_.push_back(mesh.in_scene(garment::in_metres(mesh.options, shape[v])));
 }
 
 void SceneMeshes::refine(Scene &scene) {
@@ -44,7 +60,7 @@ void SceneMeshes::refine(Scene &scene) {
         SceneMesh &mesh = meshes_[m];
         if (!mesh.tolerance_px)
             continue;
-        mesh.options.subdivide.view = view_of(scene, points_, *mesh.tolerance_px, mesh.translate);
+        mesh.options.subdivide.view = view_of(scene, points_, mesh);
         garment::LoadedGarment loaded = load(m);
         scene.surfaces[m] = std::move(loaded.surface);
         reports_[m] = std::move(loaded.report);
@@ -61,8 +77,7 @@ garment::LoadedGarment SceneMeshes::load(std::size_t m) {
         moving_[m].emplace(mesh.file, mesh.options, mesh.where, progress_);
         loaded = moving_[m]->first();
     }
-    for (glm::dvec3 &p : loaded.surface.position)
-        p += mesh.translate;
+    mesh.stand(loaded.surface);
     return loaded;
 }
 
@@ -71,8 +86,7 @@ void SceneMeshes::show(std::size_t m, std::size_t frame, Surface &surface) {
         surface = moving_[m]->first().surface;
     else
         moving_[m]->frame(meshes_[m].further[frame - 1], surface);
-    for (glm::dvec3 &p : surface.position)
-        p += meshes_[m].translate;
+    meshes_[m].stand(surface);
 }
 
 } // namespace tsuya::scene

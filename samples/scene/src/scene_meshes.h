@@ -16,9 +16,16 @@ struct SceneMesh {
     garment::MeshFile file{};
     std::string where{}; // names it in errors
     garment::Options options{};
-    std::optional<double> tolerance_px{};           // of the scene's camera; in place of the level
-    glm::dvec3 translate{0.0};                      // metres
+    std::optional<double> tolerance_px{}; // of the scene's camera; in place of the level
+    double turn = 0;           // radians about the vertical through its origin, from +z to +x
+    glm::dvec3 translate{0.0}; // metres, after the turn
     std::vector<std::vector<glm::dvec3>> further{}; // shapes, in units of the file
+
+    // A point of the mesh in the scene, and the other way round.
+    glm::dvec3 in_scene(const glm::dvec3 &point) const;
+    glm::dvec3 in_mesh(const glm::dvec3 &point) const;
+    // Brings the surface of the mesh into the scene.
+    void stand(Surface &surface) const;
 };
 
 // A mesh with further shapes is framed with all of them. Loads meshes twice where pixels say how

@@ -35,6 +35,9 @@ class SceneReader {
   private:
     void read_camera();
     void read_framing(const Section &camera);
+    // Keys of a camera that moves.
+    void read_path(const Section &camera);
+    CameraKey read_key(const Section &section, double vertical_angle);
     void read_projection(const Section &camera);
     void read_lens(const Section &camera);
     void read_fabrics();
@@ -79,13 +82,13 @@ class SceneReader {
     void read_colours(const Section &section, Environment &environment);
     // The lamp of a group of its own.
     void read_own_lamp(const Section &section, LightGroupIndex group);
-    void read_render();
-    void read_output();
-
     // The lamp that the studio's lights in a group of this name have; empty: there are none.
     std::string lamp_of_studio(const std::string &group) const;
     // Pictures under the lights' own lamps need one for every group.
     void check_own_lamps();
+    void read_render();
+    void read_output();
+
     // Index of a light group by name, made where it is new.
     LightGroupIndex group(const Section &section, const std::string &otherwise);
     // `dye` or `reflectance`.
@@ -123,9 +126,9 @@ class SceneReader {
     std::filesystem::path folder_;
     SceneFile &file_;
     const Progress &progress_;
+    std::vector<StudioGroup> studio_groups_{};
     bool names_light_ = false;
     double white_lux_ = 1000;
 };
-    std::vector<StudioGroup> studio_groups_{};
 
 } // namespace tsuya::scene

@@ -1,5 +1,6 @@
 #pragma once
-// A figure that turns before a camera and lights that stand still.
+// What turns about a vertical: a figure before a camera and lights that stand still, a mesh at its
+// place.
 
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "tsuya/sdk/surface.h"
 
 namespace tsuya::scene {
+
+// About the vertical line through `axis`, as below.
+glm::dvec3 turned(const glm::dvec3 &point, const glm::dvec3 &axis, double angle);
 
 // About the vertical line through `axis`, counter-clockwise as seen from above: the figure's right
 // comes to the place of its front. \param angle radians

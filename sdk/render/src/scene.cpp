@@ -6,6 +6,7 @@
 
 #include "scene_check.h"
 #include "tsuya/sdk/angle.h"
+#include "tsuya/sdk/detail/camera_check.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/light_group.h"
@@ -302,6 +303,14 @@ void check_scene(const Scene &scene) {
     check.prints();
     check.fabrics();
     check.lights();
+    check.camera();
+    check.problems.throw_if_any();
+}
+
+void detail::check_camera(const Camera &camera) {
+    Scene scene;
+    scene.camera = camera;
+    SceneCheck check{scene};
     check.camera();
     check.problems.throw_if_any();
 }

@@ -16,6 +16,7 @@
 
 #include "tsuya/color/config.h"
 #include "tsuya/garment/garment.h"
+#include "tsuya/scene/camera_path.h"
 #include "tsuya/scene/panel_entry.h"
 #include "tsuya/scene/pattern_entry.h"
 #include "tsuya/scene/picture.h"
@@ -28,8 +29,8 @@ namespace tsuya::scene {
 /// `[fabrics.NAME]`
 struct FabricEntry {
     std::string name{};
-    std::filesystem::path file{};  ///< empty: a plain diffuser
     std::string where{};           ///< file:line:column
+    std::filesystem::path file{};  ///< empty: a plain diffuser
     std::optional<Spectrum> dye{}; ///< empty: the file's own, or 0.5 for a plain diffuser
     bool open_dye = false;         ///< see Scene::open_dyes
     /// Empty: the file's own
@@ -56,7 +57,8 @@ struct MeshEntry {
     std::vector<std::filesystem::path> frames{}; ///< see garment::read_frames; the mesh is frame 0
     garment::Options options{};
     std::optional<double> tolerance_px{}; ///< of the scene's camera; in place of the level
-    glm::dvec3 translate{0, 0, 0};        ///< metres
+    double turn = 0;               ///< radians about the vertical through its origin, from +z to +x
+    glm::dvec3 translate{0, 0, 0}; ///< metres, after the turn
     bool visible = true;
 };
 
@@ -79,9 +81,10 @@ struct OutputEntry {
 /// directory.
 struct SceneFile {
     std::filesystem::path path{};
-    std::optional<Camera> camera{};    ///< empty: framed, see below
-    Framing framing{};                 ///< of all visible garments and bodies
-    std::optional<glm::dvec3> focus{}; ///< a point that is sharp, of a camera with a lens
+    std::optional<Camera> camera{};       ///< empty: framed, see below
+    std::vector<CameraKey> camera_path{}; ///< the camera is at its first key in frame 0
+    Framing framing{};                    ///< of all visible garments and bodies
+    std::optional<glm::dvec3> focus{};    ///< a point that is sharp, of a camera with a lens
     std::vector<FabricEntry> fabrics{};
     std::vector<PatternEntry> patterns{};
     std::vector<OpacityEntry> opacities{};
@@ -113,8 +116,8 @@ struct MeshReport {
     garment::Report report{};
 };
 
-/// The shapes of what moves in a scene. Repairs, seams, tessellation and dressing are those of
-/// frame 0, and what stands still is not touched.
+/// What moves in a scene: shapes, and the camera on its path. Repairs, seams, tessellation and
+/// dressing are those of frame 0, and what stands still is not touched.
 class SceneFrames {
   public:
     SceneFrames();
@@ -124,8 +127,8 @@ class SceneFrames {
 
     /// Number of frames, 1 or more.
     std::size_t count() const { return count_; }
-    /// Gives the scene's moving surfaces the shapes of a frame. Throws Error as
-    /// garment::AnimatedGarment::frame.
+    /// Gives the scene's moving surfaces the shapes of a frame, and the scene its camera. Throws
+    /// Error as garment::AnimatedGarment::frame.
     void show(std::size_t frame, Scene &scene);
 
   private:
