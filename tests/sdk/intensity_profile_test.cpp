@@ -61,6 +61,39 @@ TEST(IntensityProfile, HasTheSymmetryOfItsAngles) {
     EXPECT_EQ(at(turned, 90, 90), 202);
 }
 
+// Directions by hand: one who looks ahead with `up` above has `right` to the right.
+TEST(IntensityProfile, HasTheAnglesOfItsType) {
+    const auto profile = [](int type, std::string text) {
+        return parse_ies(text.replace(text.find(" 1 2 0 0 0"), 2, " " + std::to_string(type)),
+                         "a.ies");
+    };
+    const auto towards = [](const IntensityProfile &of, double right, double up, double ahead) {
+        return of.at(std::acos(ahead), std::atan2(-right, up));
+    };
+    const double half = std::sqrt(0.5), wide = std::sqrt(0.75);
+    const std::string all = numbered("-90 0 45 90", "-90 0 60 90", 4, 4);
+    for (const int type : {2, 3}) {
+        const IntensityProfile p = profile(type, all);
+        EXPECT_NEAR(towards(p, 0, 0, 1), 202, 1e-9) << "H 0, V 0";
+        EXPECT_NEAR(towards(p, 0, half, half), 203, 1e-9) << "V 45";
+        EXPECT_NEAR(towards(p, wide, 0, 0.5), 302, 1e-9) << "H 60";
+        EXPECT_NEAR(towards(p, 0, -half, half), 201.5, 1e-9) << "V -45";
+        EXPECT_NEAR(p.last_angle(), kHalfPi, 1e-12);
+        EXPECT_EQ(towards(p, 0, 0.6, -0.8), 0) << "behind";
+    }
+    // H 60 and V 45 at once: in A the height is the sine of V, in B the side is that of H. The grid
+    // about the axis is half a degree wide.
+    EXPECT_NEAR(towards(profile(3, all), half * wide, half, half * 0.5), 303, 1);
+    EXPECT_NEAR(towards(profile(2, all), wide, half * 0.5, half * 0.5), 303, 1);
+    EXPECT_GT(std::abs(towards(profile(3, all), wide, half * 0.5, half * 0.5) - 303), 15);
+    // From 0 on both sides are alike; beyond the last angle it is dark
+    const auto even = profile(3, numbered("-20 20", "0 30", 2, 2));
+    EXPECT_NEAR(towards(even, std::sin(kDegree * 15), 0, std::cos(kDegree * 15)), 151.5, 1e-9);
+    EXPECT_NEAR(towards(even, -std::sin(kDegree * 15), 0, std::cos(kDegree * 15)), 151.5, 1e-9);
+    EXPECT_EQ(towards(even, 0.6, 0, 0.8), 0);
+    EXPECT_EQ(towards(even, 0, 0.5, wide), 0);
+}
+
 TEST(IntensityProfile, MayHaveTiltFactors) {
     const std::string numbers = "1 1000 1 2 1 1 2 0 0 0\n1 1 100\n0 90\n0\n5 6\n";
     EXPECT_EQ(at(parse_ies(ies("1\n3\n0 45 90\n1 .9 .8\n" + numbers, "INCLUDE"), "a.ies"), 90, 0),
@@ -84,7 +117,11 @@ TEST(IntensityProfile, IsRefusedAtItsLine) {
         {with("1 1000 2 3", "1 1000 0 3"), ":5", "multiplier is 0"},
         {with("1 1000 2 3", "1 1000 2 1"), ":5", "vertical angles is 1"},
         {with("1 1000 2 3", "1 1000 2 2.5"), ":5", "vertical angles is 2.5"},
-        {with("2 1 2 0", "2 2 2 0"), ":5", "photometric type 2"},
+        {with("2 1 2 0", "2 4 2 0"), ":5", "photometric type 4"},
+        {with("0 45 90\n0 90", "0 45 95\n0 90").replace(good.find("2 1 2 0"), 3, "2 2"), ":8",
+         "vertical angles go from 0 to 95"},
+        {with("0 45 90\n0 90", "0 45 90\n30 90").replace(good.find("2 1 2 0"), 3, "2 3"), ":8",
+         "do not reach"},
         {with("0 45 90", "0 45 45"), ":7", "no larger"},
         {with("0 45 90", "0 45 190"), ":7", "190"},
         {with("0 90\n", "0 80\n"), ":8", "80"},

@@ -1,5 +1,6 @@
 // Files of luminous intensities, [LM63].
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -15,6 +16,55 @@ namespace tsuya {
 namespace {
 
 constexpr int kMostAngles = 2000;
+constexpr int kTypeC = 1, kTypeB = 2, kTypeA = 3;
+
+/// Intensity at angles of types A and B; dark beyond what was measured.
+double ahead(const IntensityProfile &measured, double vertical, double horizontal) {
+    if (measured.horizontal.front() >= 0) // both sides are alike
+        horizontal = std::abs(horizontal);
+    constexpr double kRounding = 1e-9;
+    struct Place {
+        std::size_t index;
+        double share; // of the next
+    };
+    const auto place = [](const std::vector<double> &list, double angle) -> std::optional<Place> {
+        if (angle < list.front() - kRounding || angle > list.back() + kRounding)
+            return std::nullopt;
+        const auto next = std::upper_bound(list.begin() + 1, list.end() - 1, angle);
+        const auto index = static_cast<std::size_t>(next - list.begin()) - 1;
+        return Place{index, (angle - list[index]) / (list[index + 1] - list[index])};
+    };
+    const auto v = place(measured.vertical, vertical), h = place(measured.horizontal, horizontal);
+    if (!v || !h)
+        return 0;
+    const auto along = [&](std::size_t row) {
+        const double *const values = measured.candela.data() + row * measured.vertical.size();
+        return std::lerp(values[v->index], values[v->index + 1], v->share);
+    };
+    return std::max(0.0, std::lerp(along(h->index), along(h->index + 1), h->share));
+}
+
+/// A profile of type A or B with angles from and about the axis, at which H and V are 0. Plane 0 is
+/// that of V = 90. For one who looks along the axis with that above, H counts to the right: in A
+/// about the upward direction, where V is the height above the plane across it; in B V counts about
+/// the direction to the right, and H is from the plane across that.
+IntensityProfile about_the_axis(const IntensityProfile &measured, int type) {
+    constexpr int kFromAxis = 180, kAbout = 360; // half a degree, and one
+    IntensityProfile profile;
+    for (int i = 0; i <= kFromAxis; ++i)
+        profile.vertical.push_back(kHalfPi * i / kFromAxis);
+    for (int j = 0; j <= kAbout; ++j)
+        profile.horizontal.push_back(2 * kPi * j / kAbout);
+    for (const double about : profile.horizontal)
+        for (const double from_axis : profile.vertical) {
+            const double forward = std::cos(from_axis), up = std::sin(from_axis) * std::cos(about),
+                         right = -std::sin(from_axis) * std::sin(about);
+            profile.candela.push_back(
+                type == kTypeA ? ahead(measured, std::asin(up), std::atan2(right, forward))
+                               : ahead(measured, std::atan2(up, forward), std::asin(right)));
+        }
+    return profile;
+}
 
 class IesReader {
   public:
@@ -27,9 +77,7 @@ class IesReader {
         const double multiplier = above_zero("candela multiplier");
         const int verticals = count("number of vertical angles", 2);
         const int horizontals = count("number of horizontal angles", 1);
-        if (const double type = number("photometric type"); type != 1)
-            refuse("photometric type " + shown(type),
-                   "expected 1: type C, angles from the axis and about it");
+        const int type = photometric_type();
         for (const char *what : {"units", "width", "length", "height"})
             number(what);
         const double factor =
@@ -37,9 +85,17 @@ class IesReader {
         number("input watts");
         IntensityProfile profile;
         profile.vertical = angles(verticals, "vertical angle");
-        check_vertical(profile.vertical);
         profile.horizontal = angles(horizontals, "horizontal angle");
-        turn_horizontal(profile.horizontal);
+        if (type == kTypeC) {
+            check_vertical(profile.vertical);
+            turn_horizontal(profile.horizontal);
+        } else {
+            check_ahead(profile.vertical, "vertical");
+            check_ahead(profile.horizontal, "horizontal");
+            if (horizontals < 2 || profile.horizontal.front() > 0)
+                refuse("the horizontal angles do not reach from 0 to the right",
+                       "expected angles from -90 or 0 to 90 degrees");
+        }
         for (int i = 0; i < verticals * horizontals; ++i) {
             const double value = number("intensity");
             if (value < 0)
@@ -48,7 +104,7 @@ class IesReader {
         }
         if (!(profile.highest() > 0))
             refuse("the luminaire is dark", "expected intensities above 0");
-        return profile;
+        return type == kTypeC ? profile : about_the_axis(profile, type);
     }
 
   private:
@@ -142,6 +198,13 @@ class IesReader {
         return static_cast<int>(value);
     }
 
+    int photometric_type() {
+        const double type = number("photometric type");
+        if (type != kTypeA && type != kTypeB && type != kTypeC)
+            refuse("photometric type " + shown(type), "expected 1, 2 or 3: type C, B or A");
+        return static_cast<int>(type);
+    }
+
     std::vector<double> angles(int how_many, const char *what) {
         std::vector<double> list;
         for (int i = 0; i < how_many; ++i) {
@@ -160,6 +223,14 @@ class IesReader {
             refuse("the vertical angles go from " + shown(list.front() / kDegree) + " to " +
                        shown(list.back() / kDegree),
                    "expected angles of type C, from 0 to 180 degrees");
+    }
+    // Types A and B: the half space ahead.
+    void check_ahead(const std::vector<double> &list, const std::string &which) const {
+        constexpr double kRounding = 1e-9;
+        if (list.front() < -kHalfPi - kRounding || list.back() > kHalfPi + kRounding)
+            refuse("the " + which + " angles go from " + shown(list.front() / kDegree) + " to " +
+                       shown(list.back() / kDegree),
+                   "expected angles of types A and B, from -90 to 90 degrees");
     }
     // From 0; a half turn may be given from 90 to 270.
     void turn_horizontal(std::vector<double> &list) const {

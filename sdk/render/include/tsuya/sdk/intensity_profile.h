@@ -25,11 +25,11 @@ struct IntensityProfile {
     double last_angle() const;
 };
 
-/// Reads a file of luminous intensities, [LM63] of 1986 to 2019: photometric type C, with or
-/// without tilt factors in the file (which are not applied: they are of lamps that are tilted).
+/// Reads a file of luminous intensities, [LM63] of 1986 to 2019: types C, and A and B, which get
+/// angles about their axis H = V = 0 from V = 90 on. Tilt factors of a lamp are not applied.
 /// Candelas are times the multiplier, the ballast factor and the ballast-lamp factor of the file.
 /// Symmetry is what the last horizontal angle says; files that begin at 90 degrees are turned.
-/// Throws Error at file:line for what is no such file, types A and B, tilt factors in another file,
+/// Throws Error at file:line for what is no such file, tilt factors in another file,
 /// numbers that are missing, angles that do not rise or do not fit the type, and intensities below
 /// 0 or none above.
 IntensityProfile read_ies(const std::filesystem::path &file);
