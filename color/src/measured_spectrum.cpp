@@ -52,6 +52,9 @@ class Judge {
             sample_.quantity == SpectralQuantity::transmittance)
             refuse("the file says that it holds a reflectance or transmittance",
                    "expected the relative power of a lamp");
+        if (sample_.in_row)
+            refuse("the spectrum is a row of samples, as charts of reflectances have them",
+                   "expected a lamp's power in a column below its name, beside the wavelengths");
         check_wavelengths();
         for (std::size_t i = 0; i < values().size(); ++i)
             if (values()[i] > kLargestPower)

@@ -130,6 +130,8 @@ TEST(MeasuredSpectrum, ReadsOutsideCases) {
         EXPECT_NEAR(xy.y, hp4.y, 2e-4) << name;
     }
     EXPECT_NEAR(read_dye_file(folder / "colorchecker.csv", "navy").spectrum.at(550), 0.05, 1e-12);
+    test::expect_problem([&] { read_lamp_file(folder / "colorchecker.csv", "navy"); },
+                         (folder / "colorchecker.csv").string(), "a row of samples");
     for (const char *name : {"narrow.csv", "laser650.csv"})
         EXPECT_NO_THROW(white_of(read_lamp_file(folder / name).spectrum)) << name;
 }

@@ -281,7 +281,8 @@ class TextReader {
                         " as in the line of wavelengths");
                 continue;
             }
-            SpectrumSample sample{.name = sample_name(names, fields, at), .percent = percent};
+            SpectrumSample sample{
+                .name = sample_name(names, fields, at), .percent = percent, .in_row = true};
             for (const std::size_t column : at)
                 if (const auto value = number_at(lines_[i], fields[column]))
                     add_value(sample, *wavelength_in_name(names[column].text), *value,

@@ -33,6 +33,7 @@ struct SpectrumSample {
     std::vector<std::string> where{}; ///< place of each value, for messages
     SpectralQuantity quantity = SpectralQuantity::unknown;
     bool percent = false; ///< the file says that values are percent
+    bool in_row = false;  ///< a row of samples below a line of wavelengths, as charts have them
 };
 
 /// What a file holds, as it stands there: no value is judged.
