@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +62,60 @@ TEST(WeaveFace, SlopesRiseAlongTheirYarns) {
     EXPECT_GT(rising, 0);
     EXPECT_LT(falling, 0);
     EXPECT_NEAR(sum / rising, 0, 0.01);
+}
+
+/// The system of the highest filament at each place of a map, of filaments as they are traced: by
+/// the balls about the points of their paths, and points between those. 2 where there is none.
+std::vector<int> highest_filaments(const FilamentRepeat &repeat, const WeaveMap &map) {
+    constexpr int kBetween = 6;
+    const int nx = map.size[0], ny = map.size[1];
+    const glm::dvec2 size(repeat.size), place = map.repeat / glm::dvec2(nx, ny);
+    std::vector<double> top(map.place.size(), -1e9);
+    std::vector<int> system(map.place.size(), 2);
+    const auto cover = [&](const glm::dvec3 &point, const Filament &filament) {
+        const double r = static_cast<double>(filament.radius);
+        for (int j = static_cast<int>(std::floor((point.y - r) / place.y));
+             j <= static_cast<int>((point.y + r) / place.y) + 1; ++j)
+            for (int i = static_cast<int>(std::floor((point.x - r) / place.x));
+                 i <= static_cast<int>((point.x + r) / place.x) + 1; ++i) {
+                const glm::dvec2 off(place.x * (i + 0.5) - point.x, place.y * (j + 0.5) - point.y);
+                const double up = r * r - glm::dot(off, off);
+                const auto at =
+                    static_cast<std::size_t>((j % ny + ny) % ny * nx + (i % nx + nx) % nx);
+                if (up < 0 || point.z + std::sqrt(up) < top[at])
+                    continue;
+                top[at] = point.z + std::sqrt(up);
+                system[at] = filament.system == 0 ? WeavePlace::kWarp : WeavePlace::kWeft;
+            }
+    };
+    for (const Filament &filament : repeat.filaments)
+        for (std::size_t k = 0; k < filament.point.size(); ++k) {
+            const glm::dvec3 from(filament.point[k]);
+            glm::dvec3 to(filament.point[(k + 1) % filament.point.size()]);
+            if (k + 1 == filament.point.size())
+                (filament.system == 0 ? to.y : to.x) += filament.system == 0 ? size.y : size.x;
+            for (int b = 0; b < kBetween; ++b)
+                cover(glm::mix(from, to, b / double(kBetween)), filament);
+        }
+    return system;
+}
+
+// The yarns' sections are those of their filaments: what is seen is of the same system.
+TEST(WeaveFace, IsThatOfTheFilaments) {
+    for (const char *const name : {"black polyester satin", "polyester taffeta", "twill lining"}) {
+        const Weave cloth = weave(name);
+        const WeaveMap map = face_of(cloth, 24);
+        const FilamentRepeat repeat = build_filaments(cloth);
+        ASSERT_NEAR(repeat.size.x, map.repeat.x, 1e-12);
+        const std::vector<int> system = highest_filaments(repeat, map);
+        std::size_t same = 0, seen = 0;
+        for (std::size_t i = 0; i < system.size(); ++i) {
+            seen += system[i] < 2; // filaments leave gaps that the sections have not
+            same += system[i] < 2 && system[i] == map.place[i].system;
+        }
+        EXPECT_GT(static_cast<double>(seen), 0.9 * static_cast<double>(system.size())) << name;
+        EXPECT_GT(static_cast<double>(same), 0.97 * static_cast<double>(seen)) << name;
+    }
 }
 
 TEST(WeaveFace, KeepsLargeDraftsSmall) {

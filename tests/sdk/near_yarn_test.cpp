@@ -210,6 +210,41 @@ TEST(NearYarn, FadesIntoTheFarFieldByItsFootprint) {
     EXPECT_NEAR(mixed.y, 1 - between.near, 1e-6);
 }
 
+// Rows of what is seen along the warp's float at 16 x 16 spots a repeat, over some repeats.
+double correlation(const NearYarn &near, const WeaveMap &map, int lag) {
+    constexpr int kSpots = 16, kRepeats = 24;
+    const glm::vec3 light = glm::normalize(glm::vec3(0.1, 0.2, 1)), viewer(0, 0, 1);
+    double sum = 0, square = 0, product = 0;
+    for (int y = 0; y < 4 * kSpots; ++y) {
+        std::vector<double> row;
+        for (int x = 0; x < kRepeats * kSpots; ++x) {
+            const glm::dvec2 spot = map.repeat * glm::dvec2(x + 0.5, y + 0.5) / double(kSpots);
+            const glm::vec2 seen = near.surface(near.at(spot, 0), light, viewer);
+            row.push_back(static_cast<double>(seen.x + 2 * seen.y));
+        }
+        const std::size_t n = row.size(), step = static_cast<std::size_t>(lag * kSpots);
+        for (std::size_t i = 0; i < n; ++i) {
+            sum += row[i] / static_cast<double>(n);
+            square += row[i] * row[i] / static_cast<double>(n);
+            if (i + step < n)
+                product += row[i] * row[i + step] / static_cast<double>(n - step);
+        }
+    }
+    const double rows = 4 * kSpots, mean = sum / rows;
+    return (product / rows - mean * mean) / (square / rows - mean * mean);
+}
+
+// No eye finds the repeat in threads that are not alike.
+TEST(NearYarn, HasNoRepeatThatIsLikeTheNext) {
+    const WeaveMap map = lab::face_of(lab::weave("black polyester satin"));
+    const NearYarn even(even_slopes(), 0.05, map, {}),
+        uneven(even_slopes(), 0.05, map, {.thickness = 0.08});
+    for (const int lag : {2, 4, 8}) {
+        EXPECT_NEAR(correlation(even, map, lag), 1, 0.01); // control
+        EXPECT_LT(correlation(uneven, map, lag), 0.9) << lag;
+    }
+}
+
 // A system that is not on the face has no places, and what the far field has of it stays.
 TEST(NearYarn, KeepsASystemThatIsNeverOnTheFace) {
     WeaveMap map = ramp(0.2f);

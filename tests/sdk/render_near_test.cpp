@@ -88,10 +88,15 @@ TEST(NearCloth, HasTheMeanOfTheFarCloth) {
                                "xx.o"
                                "xxxo"
                                "oxxx");
-    const SpectralImage near = picture(sheet(woven(map), 64), 16);
     const double far = mean_of(picture(sheet(satin(0.3), 64), 16));
-    EXPECT_NEAR(mean_of(near) / far, 1, 5e-3);
-    EXPECT_GT(largest_difference(near, 0, far), 0.5 * far); // control: it is not the far cloth
+    // All near; between near and far; all far
+    for (const int pixels : {64, 6, 3, 2}) {
+        const SpectralImage near = picture(sheet(woven(map), pixels), 65536 / (pixels * pixels));
+        EXPECT_NEAR(mean_of(near) / far, 1, 5e-3) << pixels;
+        if (pixels == 64) { // control: it is not the far cloth
+            EXPECT_GT(largest_difference(near, 0, far), 0.5 * far);
+        }
+    }
 }
 
 TEST(NearCloth, IsTheFarClothFromFar) {

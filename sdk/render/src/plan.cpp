@@ -9,6 +9,7 @@
 #include "aov.h"
 #include "dye_channels.h"
 #include "tsuya/sdk/detail/counted.h"
+#include "tsuya/sdk/near_yarn.h"
 #include "tsuya/sdk/render.h"
 
 namespace tsuya {

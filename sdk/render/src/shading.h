@@ -7,6 +7,7 @@
 
 #include "channels.h"
 #include "tsuya/sdk/fabric.h"
+#include "tsuya/sdk/near_yarn.h"
 
 namespace tsuya {
 

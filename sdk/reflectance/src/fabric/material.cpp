@@ -7,6 +7,7 @@
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/model.h"
+#include "tsuya/sdk/near_yarn.h"
 
 namespace tsuya {
 namespace {

@@ -24,18 +24,28 @@ constexpr float kLowest = 1e-6f;     // cosine: below, tangents grow no more
 constexpr int kLanes = 8;
 using Lanes = std::array<float, kLanes>;
 
-// 2^-x for x from 0, to 1e-4: what is divided is of it as what it is divided by.
+constexpr float kLobeEnd = 20; // halvings of the peak
+
+// 2^-x to 1e-4 for x from 0 to kLobeEnd, beyond it as there. What is divided is of it as what it is
+// divided by.
 inline float power_of_half(float x) {
-    const float t = -std::min(x, 120.0f);
+    const float t = -std::min(x, kLobeEnd);
     const auto up = static_cast<std::int32_t>(t); // towards 0
     const float f = t - static_cast<float>(up) + 1;
     const float fraction = 1 + f * (0.6951786f + f * (0.2276453f + f * 0.0771761f));
     return fraction * std::bit_cast<float>((up + 126) << 23);
 }
 
+// To 0.005 radians.
+float rough_arc_tangent(float x) {
+    if (std::abs(x) <= 1)
+        return x / (1 + 0.28f * x * x);
+    return std::copysign(kHalfPiF, x) - x / (x * x + 0.28f);
+}
+
 glm::vec3 unit_half(const glm::vec3 &l, const glm::vec3 &v) {
     const glm::vec3 sum = l + v;
-    return sum / std::sqrt(std::max(glm::dot(sum, sum), 1e-20f));
+    return sum * (1 / std::sqrt(std::max(glm::dot(sum, sum), 1e-20f)));
 }
 
 float sum_of(const Lanes &lanes) {
@@ -51,6 +61,29 @@ double normal_random(std::uint32_t seed) {
     for (std::uint32_t i = 0; i < 12; ++i)
         sum += detail::hash(seed + 0x9e3779b9u * i) * 0x1p-32;
     return sum;
+}
+
+// Tells `add` the slopes that a place of a rank has, and how much of each, in parts: the mean over
+// a window of ranks, which is reflected at both ends. It is a whole number of ranks wide, so that
+// all windows together cover each rank alike. \param up_to the steepest rank of each slope
+template <class Add>
+void share_out(const std::array<double, kYarnSlopes + 1> &up_to, std::size_t of, std::uint32_t rank,
+               const Add &add) {
+    const auto count = static_cast<double>(of);
+    const double width = std::max(std::round(kWindow * count), 1.0), over_width = 1 / width;
+    const double low = rank + 0.5 * (1 - width), high = low + width;
+    const auto part = [&](double from, double to) {
+        const auto after = std::upper_bound(up_to.begin() + 1, up_to.end() - 1, from);
+        for (auto k = static_cast<std::size_t>(after - up_to.begin()) - 1;
+             k < kYarnSlopes && up_to[k] < to; ++k)
+            add(k, static_cast<float>((std::min(up_to[k + 1], to) - std::max(up_to[k], from)) *
+                                      over_width));
+    };
+    part(std::max(low, 0.0), std::min(high, count));
+    if (low < 0)
+        part(0, -low);
+    if (high > count)
+        part(2 * count - high, count);
 }
 
 } // namespace
@@ -77,8 +110,9 @@ NearYarn::NearYarn(const YarnLobes &lobes, double body_roughness, const WeaveMap
         const double variance = roughness * roughness + step * step / 6;
         const double peak = 1 / (std::sqrt(2 * kPi * variance) * kPi);
         const double least = all > 0 ? at_all_slopes / (kPi * all * peak) : 0;
-        return Spread{static_cast<float>(0.5 * std::log2(std::exp(1.0)) / variance),
-                      static_cast<float>(least + kLeast)};
+        const double over_variance = 0.5 * std::log2(std::exp(1.0)) / variance;
+        return Spread{static_cast<float>(over_variance), static_cast<float>(least + kLeast),
+                      static_cast<float>(std::sqrt(kLobeEnd / over_variance))};
     };
     surface_ = spread(lobes.roughness, lobes.loose + 4 * lobes.even / lobes.f0);
     body_ = spread(body_roughness, 0);
@@ -156,26 +190,11 @@ void NearYarn::divide(std::size_t axis) {
     }
 }
 
-// What a place of this rank has of each slope: the mean over a window of ranks, which is reflected
-// at both ends. It is a whole number of ranks wide, so that all windows together cover each rank
-// alike.
+// What a place of this rank has of each slope.
 NearYarn::Slopes NearYarn::window(std::size_t axis, std::uint32_t rank) const {
-    const System &system = system_[axis];
-    const auto count = static_cast<double>(system.count);
-    const double width = std::max(std::round(kWindow * count), 1.0);
-    const double low = rank + 0.5 * (1 - width), high = low + width;
     Slopes has{};
-    for (std::size_t k = 0; k < kYarnSlopes; ++k) {
-        const double from = system.up_to[k], to = system.up_to[k + 1];
-        if (!(to > from))
-            continue;
-        const auto overlap = [&](double a, double b) {
-            return std::max(std::min(b, to) - std::max(a, from), 0.0);
-        };
-        const double sum = overlap(std::max(low, 0.0), std::min(high, count)) + overlap(0, -low) +
-                           overlap(2 * count - high, count);
-        has[k] = static_cast<float>(sum / width);
-    }
+    share_out(system_[axis].up_to, system_[axis].count, rank,
+              [&](std::size_t k, float share) { has[k] += share; });
     return has;
 }
 
@@ -200,10 +219,30 @@ NearPlace NearYarn::at(const glm::dvec2 &cloth, float footprint) const {
     const System &system = system_[place.system];
     const float gain = spot.density * static_cast<float>(place_.size()) /
                        static_cast<float>(system.count) * static_cast<float>(place.sky);
-    made.weight = window(place.system, place.rank);
-    for (std::size_t k = 0; k < kYarnSlopes; ++k)
-        made.weight[k] *= gain * system.over_sky[k];
+    share_out(system.up_to, system.count, place.rank, [&](std::size_t k, float share) {
+        const float weight = share * gain * system.over_sky[k];
+        made.weight[k] += weight;
+        made.all += weight;
+    });
     return made;
+}
+
+// The slopes whose lobes do not end before a half vector, with some more.
+NearYarn::Range NearYarn::slopes_at(float along, float up, const Spread &spread) {
+    static const auto kPerRadian = static_cast<float>(1 / (yarn_slope(1) - yarn_slope(0)));
+    constexpr float kMiddle = 0.5f * (kYarnSlopes - 1), kVector = kLanes;
+    const float reach = spread.reach / std::max(std::sqrt(along * along + up * up), 1e-10f);
+    if (reach > 0.8f)
+        return {0, kSlopes};
+    // 1.17 reach is above the arc sine up to 0.8
+    const float middle = -rough_arc_tangent(along / std::max(up, 1e-10f));
+    const float low = kMiddle + kPerRadian * (middle - 1.17f * reach) - 1,
+                high = kMiddle + kPerRadian * (middle + 1.17f * reach) + 1;
+    const float last = kSlopes / kVector;
+    const float first = std::clamp(std::floor(low / kVector), 0.0f, last);
+    return {static_cast<std::size_t>(first * kVector),
+            static_cast<std::size_t>(std::clamp(std::floor(high / kVector) + 1, first, last) *
+                                     kVector)};
 }
 
 // Sums over slopes of what the place has and of what all places have.
@@ -211,16 +250,17 @@ TSUYA_FOR_EVERY_PROCESSOR float NearYarn::plain(std::size_t axis, const NearPlac
                                                 const Spread &spread, const glm::vec3 &half) const {
     const float along = axis == 0 ? half.x : half.y, up = half.z;
     const Slopes &share = system_[axis].share;
+    const Range range = slopes_at(along, up, spread);
     Lanes here{}, mean{};
-    for (std::size_t i = 0; i < kSlopes; i += kLanes)
+    for (std::size_t i = range.first; i < range.end; i += kLanes)
         for (std::size_t j = 0; j < kLanes; ++j) {
             const std::size_t k = i + j;
             const float sine = along * cosine_[k] + up * sine_[k];
-            const float lobe = power_of_half(sine * sine * spread.over_variance) + spread.least;
+            const float lobe = power_of_half(sine * sine * spread.over_variance);
             here[j] += place.weight[k] * lobe;
             mean[j] += share[k] * lobe;
         }
-    return sum_of(here) / sum_of(mean);
+    return (spread.least * place.all + sum_of(here)) / (spread.least + sum_of(mean));
 }
 
 // The same with the walls of the yarn's pit. Of what is at a slope the share g lies where light and
@@ -240,12 +280,13 @@ TSUYA_FOR_EVERY_PROCESSOR float NearYarn::shadowed(std::size_t axis, const NearP
         std::min(kMostVisible * static_cast<float>(kParts) / std::max(to - from, 1.0f), kMostGain);
     const Slopes &a = system.before[first], &a1 = system.before[first + 1],
                  &b = system.before[last], &b1 = system.before[last + 1];
+    const Range range = slopes_at(along, up, surface_);
     Lanes here{}, mean{};
-    for (std::size_t i = 0; i < kSlopes; i += kLanes)
+    for (std::size_t i = range.first; i < range.end; i += kLanes)
         for (std::size_t j = 0; j < kLanes; ++j) {
             const std::size_t k = i + j;
             const float sine = along * cosine_[k] + up * sine_[k];
-            const float lobe = power_of_half(sine * sine * surface_.over_variance) + surface_.least;
+            const float lobe = power_of_half(sine * sine * surface_.over_variance);
             const float open =
                 (b[k] + after_last * (b1[k] - b[k])) - (a[k] + after_first * (a1[k] - a[k]));
             const float gain = std::min(1 / std::max(open, 1e-6f), most);
@@ -253,7 +294,7 @@ TSUYA_FOR_EVERY_PROCESSOR float NearYarn::shadowed(std::size_t axis, const NearP
             here[j] += place.weight[k] * lobe * lit;
             mean[j] += system.share[k] * lobe;
         }
-    return sum_of(here) / sum_of(mean);
+    return (surface_.least * place.all + sum_of(here)) / (surface_.least + sum_of(mean));
 }
 
 // A system that is never on the face has no places of its own, and stays as it is from far.

@@ -82,9 +82,14 @@ UnevenThreads::Thread UnevenThreads::find(const Row &row, double place) {
     const double count = row.edge.back();
     const std::int64_t turn = floor_of(place / count);
     const double in_row = std::clamp(place - static_cast<double>(turn) * count, 0.0, count);
-    const auto after = std::upper_bound(row.edge.begin() + 1, row.edge.end() - 1, in_row);
-    const double low = *(after - 1), width = *after - low;
-    return {turn * static_cast<std::int64_t>(row.edge.size() - 1) + (after - 1 - row.edge.begin()),
+    // Edges are not far from where they are in an even row
+    std::size_t i = std::min(static_cast<std::size_t>(in_row), row.edge.size() - 2);
+    while (i > 0 && row.edge[i] > in_row)
+        --i;
+    while (i + 2 < row.edge.size() && row.edge[i + 1] <= in_row)
+        ++i;
+    const double low = row.edge[i], width = row.edge[i + 1] - low;
+    return {turn * static_cast<std::int64_t>(row.edge.size() - 1) + static_cast<std::int64_t>(i),
             std::clamp((in_row - low) / width, 0.0, 1.0), width};
 }
 

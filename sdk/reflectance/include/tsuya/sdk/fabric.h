@@ -24,12 +24,13 @@
 #include "tsuya/sdk/detail/table_parts.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/lustre.h"
-#include "tsuya/sdk/near_yarn.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/spectrum.h"
 #include "tsuya/sdk/yarn_lobes.h"
 
 namespace tsuya {
+
+class NearYarn;
 
 /// The model of a fabric's file that names none: the one that comes nearest to traced cloth, see
 /// sdk/docs/ACCURACY.md.

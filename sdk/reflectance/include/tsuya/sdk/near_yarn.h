@@ -41,6 +41,7 @@ struct NearPlace {
     std::uint8_t along = 0; ///< part of the float
     /// Of the filaments at each slope, over their mean over the cloth: times their share
     std::array<float, kSlopes> weight{};
+    float all = 0; ///< their sum
 };
 
 /// The near field of yarns.
@@ -91,12 +92,17 @@ class NearYarn {
     struct Spread {
         float over_variance = 0; ///< log2(e) / 2 over the variance of the sine
         float least = 0;         ///< of filaments at all slopes, over the peak of a lobe
+        float reach = 0;         ///< sine at which a lobe ends
     };
     using Slopes = std::array<float, kSlopes>;
 
     void rank_places(const WeaveMap &map, const Irregularity &irregularity);
     void divide(std::size_t axis);
     Slopes window(std::size_t axis, std::uint32_t rank) const;
+    struct Range {
+        std::size_t first, end; ///< whole vectors of slopes
+    };
+    static Range slopes_at(float along, float up, const Spread &spread);
     float plain(std::size_t axis, const NearPlace &place, const Spread &spread,
                 const glm::vec3 &half) const;
     float shadowed(std::size_t axis, const NearPlace &place, const glm::vec3 &half, float from,
