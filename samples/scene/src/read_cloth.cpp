@@ -15,8 +15,13 @@ std::string place_of(const std::filesystem::path &file, const char *key) {
 }
 
 lab::Weave weave_of(const ClothWeave &weave, const std::filesystem::path &file) {
-    if (!weave.file.empty())
-        return lab::read_weave(file.parent_path() / weave.file);
+    if (!weave.file.empty()) {
+        const std::filesystem::path path = file.parent_path() / weave.file;
+        if (!std::filesystem::exists(path))
+            throw Error({"there is no file '" + path.string() + "'", place_of(file, "file"),
+                         "expected a weave (.toml) or a draft (.wif)"});
+        return lab::read_weave(path);
+    }
     try {
         return lab::weave(weave.preset, "");
     } catch (const Error &error) {
