@@ -62,6 +62,7 @@ fabric = "ggx"
 level = 0
 [bodies.plane]
 mesh = "plane.obj"
+unit = "m"
 fabric = "plane"
 level = 0
 fold_crease = 9
