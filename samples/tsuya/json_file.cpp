@@ -72,9 +72,24 @@ Json json_of(const std::vector<garment::Finding> &findings) {
     return list;
 }
 
+Json json_of(const std::vector<Feature> &features) {
+    Json list = Json::array();
+    for (const Feature &feature : features) {
+        const std::optional<Saving> &saves = feature.saves;
+        list.push_back({{"name", feature.name},
+                        {"on", feature.on},
+                        {"why", feature.why},
+                        {"saves", saves ? Json{{"estimated_share_of_sample", saves->of_sample},
+                                               {"estimated_seconds", saves->seconds},
+                                               {"bytes", saves->bytes}}
+                                        : Json()}});
+    }
+    return list;
+}
+
 } // namespace
 
-Json json_of(const RenderStats &stats, const std::vector<Skip> &skips) {
+Json json_of(const RenderStats &stats, const Plan &plan) {
     Json phases = Json::array(), skipped = Json::array();
     double trace_cpu_seconds = 0;
     for (const Phase &phase : stats.phases) {
@@ -83,8 +98,10 @@ Json json_of(const RenderStats &stats, const std::vector<Skip> &skips) {
         if (phase.name == "trace")
             trace_cpu_seconds = phase.cpu_seconds;
     }
-    for (const Skip &skip : skips)
-        skipped.push_back({{"what", skip.what}, {"saves", skip.saves}});
+    for (const Feature &feature : plan.features)
+        if (!feature.on && feature.saves)
+            skipped.push_back(
+                {{"what", feature.name + ": " + feature.why}, {"saves", text_of(*feature.saves)}});
     const auto rate = [&](std::uint64_t count) {
         return trace_cpu_seconds > 0 ? Json(static_cast<double>(count) / trace_cpu_seconds)
                                      : Json();
@@ -118,7 +135,21 @@ Json json_of(const RenderStats &stats, const std::vector<Skip> &skips) {
             {"cache_problem",
              prepared.tables.cache_problem.empty() ? Json() : Json(prepared.tables.cache_problem)},
             {"skipped", skipped},
+            {"features", json_of(plan.features)},
             {"interrupted", stats.interrupted}};
+}
+
+Json json_of(const Plan &plan) {
+    Json dyes = Json::array();
+    for (const DyeVariable &dye : plan.dyes)
+        dyes.push_back(dye.name);
+    return {{"schema", "tsuya-render-plan 1"},
+            {"channels", plan.channels},
+            {"depths_of_dyes", dyes},
+            {"max_bounces", plan.max_bounces},
+            {"lights", plan.lights.size()},
+            {"environment", plan.environment},
+            {"features", json_of(plan.features)}};
 }
 
 Json json_of(const garment::Report &r) {

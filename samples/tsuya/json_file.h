@@ -10,7 +10,7 @@
 namespace tsuya {
 struct ErrorMeasures;
 struct RenderStats;
-struct Skip;
+struct Plan;
 } // namespace tsuya
 
 namespace tsuya::garment {
@@ -20,8 +20,10 @@ struct Report;
 namespace tsuya::program {
 
 /// `tsuya-render-stats 1`
-/// \param skips what the plan left out
-Json json_of(const RenderStats &stats, const std::vector<Skip> &skips);
+/// \param plan of the render
+Json json_of(const RenderStats &stats, const Plan &plan);
+/// `tsuya-render-plan 1`
+Json json_of(const Plan &plan);
 /// `tsuya-garment-check 1`
 Json json_of(const garment::Report &report);
 

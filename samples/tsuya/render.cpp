@@ -1,15 +1,14 @@
 // tsuya render: a scene file to light transport.
 
 #include <algorithm>
-#include <iomanip>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "command.h"
 #include "json_file.h"
 #include "look_options.h"
+#include "render_plan.h"
 #include "same_file.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/scene/exposure.h"
@@ -17,7 +16,6 @@
 #include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/scene_file.h"
 #include "tsuya/scene/video.h"
-#include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/detail/threads.h"
 #include "tsuya/sdk/error.h"
 
@@ -37,7 +35,8 @@ struct Render final : Command {
     std::vector<std::string> aovs{};
     int video_fps = 0;
     double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
-    bool resume = false, explains = false, denoises = false, keeps_lobes = false, no_cache = false;
+    bool resume = false, explains = false, denoises = false, keeps_lobes = false, no_cache = false,
+         json = false;
     bool alpha = false;
 
     void options(Options &o) override {
@@ -97,7 +96,10 @@ struct Render final : Command {
             .range(0, 1e6);
         add_cache(o, no_cache);
         o.flag("--resume", &resume, "go on from OUT.exr.checkpoint");
-        o.flag("--explain", &explains, "print the plan, and do not render");
+        const Option &plan_only = o.flag(
+            "--explain", &explains,
+            "print the plan with what each feature that is left out saves, and do not render");
+        o.flag("--json", &json, "print the plan as JSON").needs(plan_only);
         o.option("--stats", &stats, "FILE.json", "file for time, rays and error")
             .needs(out)
             .result({".json"});
@@ -138,11 +140,11 @@ struct Render final : Command {
         console.warnings(file.warnings);
         load_ = of_load.end("load");
         own_lamps_ = built.own_lamps;
-        tell_environment(file, console);
         if (explains) {
-            explain_plan(built, settings);
+            std::cout << plan_text(file, built, settings, json);
             return kDone;
         }
+        tell_environment(file, console);
         for_each_place(file, [](const fs::path &place) { scene::prepare_output_file(place); });
         PreparedScene prepared(cache_unless(no_cache));
         const auto count = static_cast<std::size_t>(frames.value_or(1));
@@ -161,18 +163,11 @@ struct Render final : Command {
         return kDone;
     }
 
-    /// How well three lamps make the colours of an environment.
-    void tell_environment(const scene::SceneFile &file, Console &console) const {
+    /// Where three lamps make the colours of the environment badly.
+    static void tell_environment(const scene::SceneFile &file, Console &console) {
         constexpr double kTold = 0.01;
-        if (!file.environment_error || (*file.environment_error < kTold && !explains))
-            return;
-        std::ostringstream text;
-        text << "the colours of the environment are mixed of three lamps with an error of "
-             << std::setprecision(2) << 100 * *file.environment_error << " %";
-        if (explains)
-            std::cout << text.str() << "\n";
-        else
-            console.warning(text.str());
+        if (file.environment_error.value_or(0) >= kTold)
+            console.warning(environment_text(*file.environment_error));
     }
 
     Status render_frame(const scene::SceneFile &file, const Scene &shown,
@@ -222,14 +217,6 @@ struct Render final : Command {
         } catch (const Error &) {
             return "";
         }
-    }
-
-    static void explain_plan(const scene::BuiltScene &built, const RenderSettings &settings) {
-        std::cout << shown(explain(plan(built.scene, settings)), "\n");
-        for (const scene::MeshReport &mesh : built.reports)
-            std::cout << detail::counted(mesh.report.limit_triangles, "triangle") << " of "
-                      << detail::counted(mesh.report.faces, "face") << ": " << mesh.mesh.string()
-                      << "\n";
     }
 
     RenderSettings settings_of(const scene::SceneFile &file) const {
@@ -384,7 +371,7 @@ struct Render final : Command {
             }
         result.stats.phases.push_back(of_write.end("write"));
         if (!stats.empty())
-            write_json(of_frame(stats, frame_), json_of(result.stats, plan(shown, settings).skips));
+            write_json(of_frame(stats, frame_), json_of(result.stats, plan(shown, settings)));
     }
 
   private:

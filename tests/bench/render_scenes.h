@@ -16,9 +16,8 @@ struct RenderScene {
     StopRule stop{}; ///< as it is rendered by default
 };
 
-// A pleated skirt of 50,000 quads on a plane.
+// The skirt of skirt.h.
 // \param fabric `ggx` or `yarn`
-// \param lights square lamps of .3 m on an arc in front of the skirt
 Scene skirt(const std::string &fabric, int lights, int size);
 
 // The skirt in both fabrics with direct light alone and with three bounces in an even environment;

@@ -9,6 +9,7 @@
 #include "limited_disk.h"
 #include "samples/program_run.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/sdk/plan.h"
 
 namespace tsuya::program {
 namespace {
@@ -57,7 +58,38 @@ TEST(RenderCommand, RendersAScene) {
     EXPECT_EQ(numbers.at("objects_built"), 1);
     EXPECT_EQ(numbers.at("tables_made"), 0) << "a plain diffuser has none";
     EXPECT_GT(numbers.at("skipped").size(), 0u);
+    EXPECT_EQ(numbers.at("features").size(), feature_names().size());
+    EXPECT_EQ(numbers.at("camera_rays"), 6 * 16 * 20);
+    EXPECT_EQ(numbers.at("camera_rays").get<int>() + numbers.at("shadow_rays").get<int>() +
+                  numbers.at("bounce_rays").get<int>(),
+              numbers.at("rays"));
     EXPECT_FALSE(fs::exists(exr.string() + ".checkpoint"));
+}
+
+TEST(RenderCommand, ExplainsEachFeature) {
+    const Scratch scratch;
+    const std::string scene_file = write_scene(scratch);
+    const Outcome lines = run(scratch, {"render", scene_file, "--explain", "--alpha"});
+    ASSERT_EQ(lines.status, 0) << lines.err;
+    EXPECT_NE(lines.out.find("\non   alpha: it is asked for\n"), std::string::npos) << lines.out;
+    EXPECT_NE(lines.out.find("\noff  holes: no cloth has any; saves about "), std::string::npos);
+    const Outcome machine = run(scratch, {"render", scene_file, "--explain", "--json"});
+    ASSERT_EQ(machine.status, 0) << machine.err;
+    const json plan = json::parse(machine.out);
+    EXPECT_EQ(plan.at("schema"), "tsuya-render-plan 1");
+    EXPECT_EQ(plan.at("meshes").size(), 1u);
+    std::vector<std::string> names;
+    for (const json &feature : plan.at("features")) {
+        names.push_back(feature.at("name"));
+        if (names.back() == "alpha") {
+            EXPECT_EQ(feature.at("on"), false);
+            EXPECT_EQ(feature.at("saves").at("bytes"), 2 * 4 * 16 * 20);
+        }
+    }
+    EXPECT_EQ(names, feature_names());
+    EXPECT_EQ(
+        run(scratch, {"render", scene_file, "-o", (scratch / "a.exr").string(), "--json"}).status,
+        2);
 }
 
 // The second run reads the tables that the first one made, and renders the same.

@@ -51,7 +51,7 @@ struct Traced {
         : scene(std::move(made)), settings{.channels = 8,
                                            .max_bounces = bounces,
                                            .widen_after_diffuse = widen},
-          traced(scene, plan(scene, settings), false, {.count = 8}, kept, false, {}) {}
+          traced(scene, plan(scene, settings), {.count = 8}, kept, false, {}) {}
 };
 
 // Of all groups, the first channel, of the samples of one pixel and seed.

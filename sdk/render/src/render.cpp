@@ -57,6 +57,10 @@ void check_settings(const Scene &scene, const RenderSettings &s) {
                       "expected x0,y0,x1,y1 within " + std::to_string(scene.camera.width) + " x " +
                           std::to_string(scene.camera.height));
     }
+    const std::vector<std::string> features = feature_names();
+    for (const std::string &name : s.keep)
+        problems.need(std::find(features.begin(), features.end(), name) != features.end(),
+                      "no feature '" + name + "'", "keep", accepted_names(name, features));
     const std::vector<std::string> known = aov_names();
     for (const std::string &aov : s.aovs)
         problems.need(std::find(known.begin(), known.end(), aov) != known.end(),
@@ -137,8 +141,8 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     FilmKeeper keeper(scene, settings, film, result_so_far);
     try {
         progress("prepare", 0);
-        const TracedScene traced(scene, plan(scene, settings), !settings.skip,
-                                 {.count = settings.channels}, prepared, kept != nullptr, progress);
+        const TracedScene traced(scene, plan(scene, settings), {.count = settings.channels},
+                                 prepared, kept != nullptr, progress);
         build_seconds = seconds_since(start);
         film.most_dye = traced.most_dye;
         phases = traced.phases;

@@ -290,9 +290,14 @@ std::vector<bool> fabrics_in_use(const Scene &scene) {
                 used[fabric.value] = true;
     };
     for (const Object &object : scene.objects) {
-        use(object.fabric, object.back);
-        for (const PanelFabric &panel : object.panels)
+        std::set<std::uint32_t> of_its_own;
+        for (const PanelFabric &panel : object.panels) {
             use(panel.fabric, panel.back);
+            of_its_own.insert(panel.panel);
+        }
+        if (of_its_own.empty() || object.surface.value >= scene.surfaces.size() ||
+            of_its_own.size() < panel_count(scene.surfaces[object.surface.value]))
+            use(object.fabric, object.back);
     }
     return used;
 }

@@ -118,9 +118,8 @@ MeanColours means_of(const Colours &c, int channels) {
 
 } // namespace
 
-TracedScene::TracedScene(const Scene &the_scene, const Plan &the_plan, bool keep_idle_parts,
-                         const SpectralBasis &basis, PreparedScene &prepared, bool keep,
-                         const Progress &progress)
+TracedScene::TracedScene(const Scene &the_scene, const Plan &the_plan, const SpectralBasis &basis,
+                         PreparedScene &prepared, bool keep, const Progress &progress)
     : scene(the_scene), plan(the_plan), centre(middle_of(the_scene)),
       accelerator(prepared.state_->accelerator),
       lights(the_scene, the_plan, centre, radius_of(the_scene, centre)),
@@ -131,7 +130,7 @@ TracedScene::TracedScene(const Scene &the_scene, const Plan &the_plan, bool keep
     const PhaseClock of_tables;
     prepare_prints(basis);
     prepare_sides();
-    prepare_fabrics(keep_idle_parts, basis, prepared.state_->materials, progress);
+    prepare_fabrics(basis, prepared.state_->materials, progress);
     phases.push_back(of_tables.end("tables"));
 }
 
@@ -186,9 +185,8 @@ void TracedScene::prepare_sides() {
     }
 }
 
-void TracedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis,
-                                  KeptMaterials &materials, const Progress &progress) {
-    const std::vector<bool> used = fabrics_in_use(scene);
+void TracedScene::prepare_fabrics(const SpectralBasis &basis, KeptMaterials &materials,
+                                  const Progress &progress) {
     std::vector<VaryingColours> varying;
     if (!plan.dyes.empty()) {
         varying = varying_colours(scene).fabrics;
@@ -200,18 +198,18 @@ void TracedScene::prepare_fabrics(bool keep_idle_parts, const SpectralBasis &bas
             throw Interrupted("stopped while the fabrics were prepared");
         const Fabric &fabric = scene.fabrics[cloth.fabric];
         const std::string where = "fabrics." + fabric.name;
-        const bool idle = !used[cloth.fabric] && !keep_idle_parts;
+        const bool idle = !plan.fabrics[cloth.fabric];
         const Fabric shown = cloth.print ? as_printed(cloth, basis)
                              : depths    ? fabric_at_depths(fabric, varying[cloth.fabric], *depths)
                                          : fabric;
         const Material material = idle ? Material{} : materials.resolve(shown, where, progress);
         colours.push_back(colours_of(material, basis, depths.has_value()));
         const MeanColours means = means_of(colours.back(), basis.count);
-        shading.emplace_back(material, means, keep_idle_parts);
+        shading.emplace_back(material, means, plan.keeps_idle_parts);
         wide_shading.emplace_back();
         if (const auto wide =
                 plan.widens && !idle ? materials.widened(shown, material, progress) : std::nullopt)
-            wide_shading.back().emplace(*wide, means, keep_idle_parts);
+            wide_shading.back().emplace(*wide, means, plan.keeps_idle_parts);
         for (Problem &warning : weave_warnings(material, where))
             warnings.push_back(std::move(warning));
         of_dye_.push_back(material.of_dye);

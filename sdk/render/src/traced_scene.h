@@ -52,9 +52,8 @@ struct TracedScene {
     // \param prepared gives what it has, gets what is made, and must outlive this
     // \param keep for further renders with it
     // Throws Error as resolve, and Interrupted where progress.stop becomes true.
-    TracedScene(const Scene &scene, const Plan &plan, bool keep_idle_parts,
-                const SpectralBasis &basis, PreparedScene &prepared, bool keep,
-                const Progress &progress);
+    TracedScene(const Scene &scene, const Plan &plan, const SpectralBasis &basis,
+                PreparedScene &prepared, bool keep, const Progress &progress);
 
     const Scene &scene;
     Plan plan;
@@ -124,7 +123,7 @@ struct TracedScene {
         Repeat repeat;
     };
     void prepare_sides();
-    void prepare_fabrics(bool keep_idle_parts, const SpectralBasis &basis, KeptMaterials &materials,
+    void prepare_fabrics(const SpectralBasis &basis, KeptMaterials &materials,
                          const Progress &progress);
     void prepare_prints(const SpectralBasis &basis);
     void find_most_dye(const std::vector<VaryingColours> &varying, KeptMaterials &materials,

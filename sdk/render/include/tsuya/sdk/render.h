@@ -59,6 +59,8 @@ struct RenderSettings {
     bool widen_after_diffuse = false;
     /// false: do even what the plan shows to be idle; the picture must not change
     bool skip = true;
+    /// The same of some features, by their names, see feature_names.
+    std::vector<std::string> keep{};
     /// The file in which a render keeps what it has; empty: none. Replaced atomically while it
     /// runs, and at its end, interrupted or not: it is the caller who removes it, once the picture
     /// is safe. A checkpoint that cannot be written does not end the render, see

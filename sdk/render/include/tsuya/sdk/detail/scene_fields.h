@@ -224,7 +224,7 @@ template <class F, detail::MaybeConst<StopRule> T> void each_field(F &&f, T &sto
 template <class F, detail::MaybeConst<RenderSettings> T> void each_field(F &&f, T &settings) {
     // The last two are calls to the caller and hold no value
     [[maybe_unused]] auto &[stop, channels, max_bounces, threads, seed, crop, aovs, alpha, denoise,
-                            widen_after_diffuse, skip, checkpoint, checkpoint_seconds, resume,
+                            widen_after_diffuse, skip, keep, checkpoint, checkpoint_seconds, resume,
                             snapshot_wanted, snapshot] = settings;
     f(detail::Field{.key = "stop", .in_picture = false}, stop);
     f(detail::Field{"channels"}, channels);
@@ -237,6 +237,7 @@ template <class F, detail::MaybeConst<RenderSettings> T> void each_field(F &&f, 
     f(detail::Field{"denoise"}, denoise);
     f(detail::Field{"widen_after_diffuse"}, widen_after_diffuse);
     f(detail::Field{"skip"}, skip);
+    f(detail::Field{"keep"}, keep);
     f(detail::Field{.key = "checkpoint", .in_picture = false}, checkpoint);
     f(detail::Field{.key = "checkpoint_seconds", .in_picture = false}, checkpoint_seconds);
     f(detail::Field{.key = "resume", .in_picture = false}, resume);
