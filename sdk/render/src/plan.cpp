@@ -351,17 +351,6 @@ class Planner {
     Plan p{};
 };
 
-std::string near_text(const NearCloth &cloth) {
-    if (!(cloth.within > 0))
-        return "weave: '" + cloth.fabric + "' is seen from far alone\n";
-    if (std::isinf(cloth.within))
-        return "weave: the yarns of '" + cloth.fabric + "' appear\n";
-    std::ostringstream text;
-    text << "weave: the yarns of '" << cloth.fabric << "' appear nearer than "
-         << std::setprecision(2) << cloth.within << " m\n";
-    return text.str();
-}
-
 } // namespace
 
 std::vector<std::string> feature_names() { return {kFeatureNames.begin(), kFeatureNames.end()}; }
