@@ -1,25 +1,63 @@
 #include "tsuya/color/image_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "channels.h"
+#include "icc_profile.h"
 #include "pictures.h"
+#include "rows.h"
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
 
+/// Codes of 8 or 16 bits; NaN is looked for before.
 template <class Sample> std::vector<Sample> quantize(const Image &image) {
     constexpr float kMost = sizeof(Sample) == 1 ? 255.0f : 65535.0f;
     std::vector<Sample> samples(image.data.size());
-    std::transform(image.data.begin(), image.data.end(), samples.begin(), [](float v) {
-        return static_cast<Sample>(std::lround(std::clamp(v, 0.0f, 1.0f) * kMost));
+    const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
+    for_rows(image.height, row, [&](int first, int end) {
+        for (std::size_t i = static_cast<std::size_t>(first) * row;
+             i < static_cast<std::size_t>(end) * row; ++i)
+            samples[i] = static_cast<Sample>(std::clamp(image.data[i], 0.0f, 1.0f) * kMost + 0.5f);
     });
     return samples;
+}
+
+/// A format of coded pictures.
+struct Format {
+    std::string_view ending, name; ///< and OpenImageIO's name of it
+    bool sixteen_bits, alpha, cicp;
+};
+constexpr std::array kFormats{
+    Format{".png", "png", true, true, true}, Format{".tif", "tiff", true, true, false},
+    Format{".tiff", "tiff", true, true, false}, Format{".jpg", "jpeg", false, false, false},
+    Format{".jpeg", "jpeg", false, false, false}};
+
+const Format *format_of(const std::filesystem::path &path) {
+    const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const Format &format) {
+        return path.extension() == format.ending;
+    });
+    return found == kFormats.end() ? nullptr : &*found;
+}
+
+/// What a file says of the display. Primaries 9, curve 16 or 18, RGB, all codes. [Png3]
+CodedFile coded_file(const Format &format, const PictureFileOptions &options) {
+    CodedFile file{.format = std::string(format.name),
+                   .bits = options.bits,
+                   .srgb = options.display == "sRGB"};
+    if (options.display.starts_with("Rec.2100"))
+        file.cicp = {9, static_cast<std::uint8_t>(options.display == "Rec.2100-PQ" ? 16 : 18), 0,
+                     1};
+    else if (!file.srgb && !options.display.empty())
+        file.icc = icc_profile(options.display);
+    return file;
 }
 
 void check_display_image(const Image &image, const std::string &where) {
@@ -27,7 +65,7 @@ void check_display_image(const Image &image, const std::string &where) {
     const std::size_t channels = image.channels.size();
     if (channels != 1 && channels != 3 && channels != 4)
         throw Error({"the picture has " + detail::counted(channels, "channel"), where,
-                     "expected 1 (grey), 3 (RGB) or 4 (RGBA) for a PNG"});
+                     "expected 1 (grey), 3 (RGB) or 4 (RGBA) for a picture"});
     const auto nan =
         std::find_if(image.data.begin(), image.data.end(), [](float v) { return std::isnan(v); });
     if (nan == image.data.end())
@@ -43,15 +81,52 @@ void check_display_image(const Image &image, const std::string &where) {
 
 void check_pictures() { picture_writer(); }
 
+std::vector<std::string> picture_file_endings() {
+    std::vector<std::string> endings;
+    for (const Format &format : kFormats)
+        endings.emplace_back(format.ending);
+    return endings;
+}
+
+void check_picture_file(const std::filesystem::path &path, const PictureFileOptions &options,
+                        bool alpha) {
+    const Format *const format = format_of(path);
+    const std::string where = path.string();
+    if (!format)
+        throw Error({"no picture has this ending", where, "expected .png, .tif or .jpg"});
+    const std::string name = format->name == "png" ? "a PNG" : "such a file";
+    if (options.bits != 8 && !(options.bits == 16 && format->sixteen_bits))
+        throw Error({name + " has no samples of " + std::to_string(options.bits) + " bits", where,
+                     format->sixteen_bits ? "expected 8 or 16" : "expected 8, or a PNG or TIFF"});
+    if (alpha && !format->alpha)
+        throw Error({"a JPEG has no alpha", where, "expected a PNG or TIFF"});
+    if (options.display.starts_with("Rec.2100") && !format->cicp)
+        throw Error(
+            {"such a file cannot say that it is for " + options.display, where, "expected a PNG"});
+}
+
+void write_picture(const std::filesystem::path &path, const Image &image,
+                   const PictureFileOptions &options) {
+    check_display_image(image, path.string());
+    check_picture_file(path, options, image.channels.size() == 4);
+    const CodedFile file = coded_file(*format_of(path), options);
+    const auto write = [&](const void *samples) {
+        if (file.format == "png")
+            picture_writer().write_png(path, image, file, samples);
+        else
+            picture_reader().write_coded(path, image, file, samples);
+    };
+    if (options.bits == 8)
+        write(quantize<std::uint8_t>(image).data());
+    else
+        write(quantize<std::uint16_t>(image).data());
+}
+
 void write_png(const std::filesystem::path &path, const Image &image, int bits) {
     check_display_image(image, path.string());
-    if (bits == 8)
-        picture_writer().write_png(path, image, bits, quantize<std::uint8_t>(image).data());
-    else if (bits == 16)
-        picture_writer().write_png(path, image, bits, quantize<std::uint16_t>(image).data());
-    else
-        throw Error({"a PNG has no samples of " + std::to_string(bits) + " bits", path.string(),
-                     "expected 8 or 16"});
+    if (path.extension() != ".png")
+        throw Error({"the file does not end in .png", path.string(), "expected NAME.png"});
+    write_picture(path, image, {.bits = bits});
 }
 
 Image read_image(const std::filesystem::path &path) { return picture_reader().read(path).image; }
@@ -64,6 +139,11 @@ void write_exr(const std::filesystem::path &path, const Image &image, const ExrO
                           .samples = options.samples};
     for (const auto &[key, value] : options.metadata)
         picture.attributes["tsuya:meta:" + key] = value;
+    if (options.primaries)
+        for (const glm::dvec2 &xy : {options.primaries->red, options.primaries->green,
+                                     options.primaries->blue, options.primaries->white})
+            for (const double v : {xy.x, xy.y})
+                picture.chromaticities.push_back(static_cast<float>(v));
     const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
     picture.fill_row = [&](int y, float *out) { std::copy_n(image.pixel(0, y), row, out); };
     picture_writer().write_exr(path, picture);

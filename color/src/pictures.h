@@ -37,8 +37,18 @@ struct OutputPicture {
     /// Number of the channel from which on all are float32: those before are as `samples` says
     std::size_t exact_from = std::numeric_limits<std::size_t>::max();
     std::map<std::string, std::string> attributes{};
+    std::vector<float> chromaticities{}; ///< x, y of red, green, blue, white; empty: not stated
     /// Fills one row: width x channels floats, interleaved.
     std::function<void(int y, float *row)> fill_row{};
+};
+
+/// What a file of coded samples is.
+struct CodedFile {
+    std::string format{};               ///< OpenImageIO's name: png, tiff, jpeg
+    int bits = 8;                       ///< of a sample
+    std::string icc{};                  ///< the profile; empty: none
+    std::array<std::uint8_t, 4> cicp{}; ///< of a PNG; all 0: not stated [Png3]
+    bool srgb = true;                   ///< the file says that it is sRGB, where it can
 };
 
 /// A picture as it was read, with its string attributes.
@@ -86,9 +96,9 @@ class PictureWriter {
     virtual ~PictureWriter() = default;
     virtual void write_exr(const std::filesystem::path &path,
                            const OutputPicture &picture) const = 0;
-    /// Values are rows of width x channels samples of `bits` bits.
-    virtual void write_png(const std::filesystem::path &path, const Image &shape, int bits,
-                           const void *samples) const = 0;
+    /// A PNG. Values are rows of width x channels samples.
+    virtual void write_png(const std::filesystem::path &path, const Image &shape,
+                           const CodedFile &file, const void *samples) const = 0;
     /// The bytes compressed, in the format of zlib.
     virtual std::string deflate(std::string_view bytes) const = 0;
     /// Width and height of a text in pixels. Throws Error at `sheet.font`.
@@ -99,7 +109,7 @@ class PictureWriter {
                             const std::string &font) const = 0;
 };
 
-/// What the module that reads does. All throw Error at the path.
+/// What the module that reads does, which also writes TIFF and JPEG. All throw Error at the path.
 class PictureReader {
   public:
     virtual ~PictureReader() = default;
@@ -110,6 +120,9 @@ class PictureReader {
     /// A PNG in memory. \param name for errors
     virtual EncodedPicture decode_png(std::string_view bytes, const std::string &name) const = 0;
     virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
+    /// A TIFF or JPEG. Values are rows of width x channels samples.
+    virtual void write_coded(const std::filesystem::path &path, const Image &shape,
+                             const CodedFile &file, const void *samples) const = 0;
 };
 
 /// The modules, loaded at the first call. Throw Error where that fails.

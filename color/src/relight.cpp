@@ -1,11 +1,11 @@
 #include "tsuya/color/relight.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
 
+#include "channel_sums.h"
 #include "rows.h"
 #include "tsuya/color/picture_region.h"
 #include "tsuya/sdk/detail/counted.h"
@@ -14,38 +14,17 @@
 namespace tsuya {
 namespace {
 
-/// X, Y, Z of one channel; the fourth lane is padding so that one register holds them.
-using Weights = std::array<float, 4>;
-
-// Four sums at a time: their additions do not wait for one another.
-void add_pixel(const float *t, const std::vector<Weights> &weights, float *xyz) {
-    std::array<Weights, 4> sum{};
-    std::size_t k = 0;
-    for (; k + 4 <= weights.size(); k += 4)
-        for (std::size_t j = 0; j < 4; ++j)
-            for (std::size_t c = 0; c < 4; ++c)
-                sum[j][c] += t[k + j] * weights[k + j][c];
-    for (; k < weights.size(); ++k)
-        for (std::size_t c = 0; c < 4; ++c)
-            sum[0][c] += t[k] * weights[k][c];
-    for (std::size_t c = 0; c < 3; ++c)
-        xyz[c] += (sum[0][c] + sum[1][c]) + (sum[2][c] + sum[3][c]);
-}
-
-std::vector<std::vector<Weights>> group_weights(const SpectralImage &transport,
-                                                std::span<const Spectrum> lamps,
-                                                const RelightOptions &options) {
-    std::vector<std::vector<Weights>> all;
+std::vector<std::vector<ChannelWeights>> group_weights(const SpectralImage &transport,
+                                                       std::span<const Spectrum> lamps,
+                                                       const RelightOptions &options) {
+    std::vector<std::vector<ChannelWeights>> all;
     for (std::size_t g = 0; g < transport.groups.size(); ++g) {
         const double scale = options.group_scale.empty() ? 1.0 : options.group_scale[g];
-        std::vector<Weights> weights;
         const Spectrum &lamp = lamps[lamps.size() == 1 ? 0 : g];
-        for (const glm::dvec3 &xyz : transport.depths
-                                         ? lamp_matrix(lamp, *transport.depths, options.observer)
-                                         : lamp_matrix(lamp, transport.basis, options.observer))
-            weights.push_back({static_cast<float>(scale * xyz.x), static_cast<float>(scale * xyz.y),
-                               static_cast<float>(scale * xyz.z), 0.0f});
-        all.push_back(std::move(weights));
+        all.push_back(channel_weights(transport.depths
+                                          ? lamp_matrix(lamp, *transport.depths, options.observer)
+                                          : lamp_matrix(lamp, transport.basis, options.observer),
+                                      glm::dmat3(1.0), scale));
     }
     return all;
 }
@@ -121,12 +100,9 @@ Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
     const std::size_t row = static_cast<std::size_t>(transport.width) * channels;
     for_rows(transport.height, row * weights.size(), [&](int first, int end) {
         for (std::size_t g = 0; g < weights.size(); ++g)
-            for (int y = first; y < end; ++y) {
-                const float *t = transport.pixel(g, 0, y);
-                float *out = xyz.pixel(0, y);
-                for (int x = 0; x < transport.width; ++x, t += channels, out += 3)
-                    add_pixel(t, weights[g], out);
-            }
+            for (int y = first; y < end; ++y)
+                add_channel_sums(transport.pixel(g, 0, y), weights[g], transport.width,
+                                 xyz.pixel(0, y));
     });
     return xyz;
 }
@@ -142,6 +118,16 @@ void divide_by_alpha(Image &xyz, const Image &alpha) {
 
 Image relight(const SpectralImage &transport, const Spectrum &lamp, const RelightOptions &options) {
     return relight(transport, std::span<const Spectrum>(&lamp, 1), options);
+}
+
+void check_lighting(const SpectralImage &transport, const Lighting &lighting) {
+    std::vector<Spectrum> spectra(lighting.lamps.size());
+    RelightOptions options;
+    for (std::size_t g = 0; g < transport.groups.size(); ++g)
+        if (!lighting.lamps.empty())
+            options.group_scale.push_back(
+                lighting.lamps[lighting.lamps.size() == 1 ? 0 : g % lighting.lamps.size()].factor);
+    check(transport, spectra, options);
 }
 
 Lighting lighting_of(const NamedLamp &lamp) { return {lamp.name, lamp.caption, {lamp}}; }
@@ -160,11 +146,8 @@ Image relight(const SpectralImage &transport, const Lighting &lighting, Observer
 
 glm::dvec3 adopted_white(const SpectralImage &transport, const Lighting &lighting,
                          Observer observer) {
+    check_lighting(transport, lighting);
     const std::vector<NamedLamp> &lamps = lighting.lamps;
-    if (lamps.size() != 1 && lamps.size() != transport.groups.size())
-        throw Error({detail::counted(lamps.size(), "lamp") + " for " +
-                         detail::counted(transport.groups.size(), "light group"),
-                     "lamps", "expected one lamp, or one for each light group"});
     if (std::all_of(lamps.begin(), lamps.end(),
                     [&](const NamedLamp &lamp) { return lamp.spectrum == lamps[0].spectrum; }))
         return white_of(lamps[0].spectrum, observer);

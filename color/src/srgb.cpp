@@ -5,15 +5,12 @@
 #include <glm/matrix.hpp>
 
 #include "tsuya/color/observer.h"
+#include "tsuya/color/rgb_primaries.h"
 #include "tsuya/sdk/detail/srgb_curve.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
-
-// [IEC61966] Table 1: chromaticities of the primaries (those of Rec. 709) and the white.
-constexpr glm::dvec2 kRed{0.64, 0.33}, kGreen{0.30, 0.60}, kBlue{0.15, 0.06},
-    kWhite{0.3127, 0.3290};
 
 int hex_digit(char c) {
     if (c >= '0' && c <= '9')
@@ -25,14 +22,9 @@ int hex_digit(char c) {
 
 } // namespace
 
-glm::dvec3 srgb_white() { return xyz_of_chromaticity(kWhite); }
+glm::dvec3 srgb_white() { return xyz_of_chromaticity(kRec709.white); }
 
-glm::dmat3 xyz_from_srgb() {
-    const glm::dmat3 primaries(xyz_of_chromaticity(kRed), xyz_of_chromaticity(kGreen),
-                               xyz_of_chromaticity(kBlue));
-    const glm::dvec3 scale = glm::inverse(primaries) * srgb_white();
-    return {primaries[0] * scale.x, primaries[1] * scale.y, primaries[2] * scale.z};
-}
+glm::dmat3 xyz_from_srgb() { return xyz_from_rgb(kRec709); }
 
 glm::dmat3 srgb_from_xyz() { return glm::inverse(xyz_from_srgb()); }
 

@@ -101,6 +101,97 @@ TEST(ImageFile, PngKeepsCodeValues) {
     EXPECT_EQ(folder.size(), 1);
 }
 
+/// The bytes of a chunk of a PNG, without its length and sum; empty where it has none.
+std::string chunk_of(const std::string &png, const std::string &name) {
+    for (std::size_t at = 8; at + 8 <= png.size();) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            length = length << 8 | static_cast<unsigned char>(png[at + i]);
+        if (png.substr(at + 4, 4) == name)
+            return png.substr(at + 8, length);
+        at += 12 + length;
+    }
+    return "";
+}
+
+TEST(ImageFile, WritesWhatTheEndingSays) {
+    const test::Folder folder;
+    const Image image = ramp(31, 17, {"R", "G", "B"});
+    for (const char *name : {"a.png", "a.tif", "a.tiff"})
+        for (const int bits : {8, 16}) {
+            write_picture(folder / name, image, {.bits = bits});
+            const Image back = read_image(folder / name);
+            ASSERT_EQ(back.channels.size(), 3u) << name;
+            for (std::size_t i = 0; i < image.data.size(); ++i)
+                ASSERT_NEAR(back.data[i], image.data[i], 1e-6f) << name << i;
+        }
+    Image flat = Image::make(32, 16, {"R", "G", "B"});
+    for (std::size_t i = 0; i < flat.data.size(); ++i)
+        flat.data[i] = i % 3 == 0 ? 0.8f : 0.3f;
+    for (const char *name : {"a.jpg", "a.jpeg"}) {
+        write_picture(folder / name, flat);
+        EXPECT_NEAR(read_image(folder / name).data[300], 0.8f, 0.02f) << name;
+        EXPECT_NEAR(read_image(folder / name).data[301], 0.3f, 0.02f) << name;
+    }
+    const Image alpha = ramp(5, 4, {"R", "G", "B", "A"});
+    write_picture(folder / "alpha.tif", alpha, {.bits = 16});
+    EXPECT_EQ(read_image(folder / "alpha.tif").channels.size(), 4u);
+}
+
+TEST(ImageFile, CarriesTheProfileOfItsDisplay) {
+    const test::Folder folder;
+    const Image image = ramp(16, 16, {"R", "G", "B"});
+    const auto written = [&](const char *name, const PictureFileOptions &options) {
+        write_picture(folder / name, image, options);
+        return read_file(folder / name);
+    };
+    EXPECT_FALSE(chunk_of(written("a.png", {}), "sRGB").empty());
+    EXPECT_EQ(chunk_of(written("a.png", {}), "iCCP"), "");
+    const std::string wide = written("wide.png", {.display = "Display P3"});
+    EXPECT_FALSE(chunk_of(wide, "iCCP").empty());
+    EXPECT_EQ(chunk_of(wide, "sRGB"), "");
+    EXPECT_EQ(wide, written("again.png", {.display = "Display P3"})); // no date in it
+    for (const char *name : {"wide.tif", "wide.jpg"})
+        EXPECT_NE(written(name, {.display = "Display P3"}).find("acsp"), std::string::npos) << name;
+    EXPECT_NE(written("wide.tif", {.display = "Display P3"}).find("Display P3"), std::string::npos);
+    EXPECT_EQ(chunk_of(written("pq.png", {.bits = 16, .display = "Rec.2100-PQ"}), "cICP"),
+              std::string("\x09\x10\x00\x01", 4));
+    EXPECT_EQ(chunk_of(written("hlg.png", {.display = "Rec.2100-HLG"}), "cICP"),
+              std::string("\x09\x12\x00\x01", 4));
+    EXPECT_NEAR(read_image(folder / "pq.png").data[17], image.data[17], 1e-5f); // the sum is right
+    EXPECT_EQ(chunk_of(written("none.png", {.display = ""}), "sRGB"), "");
+}
+
+TEST(ImageFile, ExrStatesItsPrimaries) {
+    const test::Folder folder;
+    const Image image = ramp(8, 8, {"R", "G", "B"});
+    write_exr(folder / "a.exr", image, {.primaries = kRec709});
+    const std::string bytes = read_file(folder / "a.exr");
+    const std::size_t at = bytes.find(std::string("chromaticities\0chromaticities\0", 30));
+    ASSERT_NE(at, std::string::npos);
+    float red_x = 0;
+    std::memcpy(&red_x, bytes.data() + at + 34, sizeof red_x);
+    EXPECT_EQ(red_x, 0.64f);
+    write_exr(folder / "b.exr", image);
+    EXPECT_EQ(read_file(folder / "b.exr").find("chromaticities"), std::string::npos);
+}
+
+TEST(ImageFile, RefusesWhatAFormatHasNot) {
+    const test::Folder folder;
+    const Image image = ramp(4, 4, {"R", "G", "B"}), alpha = ramp(4, 4, {"R", "G", "B", "A"});
+    const auto refused = [&](const char *name, const Image &shown,
+                             const PictureFileOptions &options, const char *part) {
+        const std::filesystem::path file = folder / name;
+        test::expect_problem([&] { write_picture(file, shown, options); }, file.string(), part);
+    };
+    refused("a.gif", image, {}, "no picture has this ending");
+    refused("a.jpg", image, {.bits = 16}, "no samples of 16 bits");
+    refused("a.png", image, {.bits = 12}, "no samples of 12 bits");
+    refused("a.jpg", alpha, {}, "a JPEG has no alpha");
+    refused("a.tif", image, {.display = "Rec.2100-PQ"}, "expected a PNG");
+    EXPECT_EQ(folder.size(), 0);
+}
+
 TEST(ImageFile, PngClampsAndRounds) {
     const test::Folder folder;
     write_png(folder / "p.png",

@@ -183,7 +183,8 @@ std::string look_data(const PageOptions &options) {
     return json::object(std::array<std::pair<std::string, std::string>, 4>{
         {{"display", json::text(options.look.view)},
          {"observer", json::text(options.observer == Observer::cie1931 ? "2" : "10")},
-         {"degree", options.look.adapt == Adaptation::none ? "0" : "1"},
+         {"degree",
+          options.look.adapt == Adaptation::none ? "0" : json::number(options.look.degree, 4)},
          {"exposure", json::number(options.look.exposure_stops)}}});
 }
 

@@ -20,6 +20,10 @@ class OiioReader final : public PictureReader {
     std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const override {
         return open_frame_file(path);
     }
+    void write_coded(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
+                     const void *samples) const override {
+        write_coded_samples(path, shape, file, samples);
+    }
 };
 
 } // namespace

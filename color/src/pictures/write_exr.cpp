@@ -11,6 +11,7 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
 #include <tbb/task_arena.h>
@@ -84,6 +85,9 @@ Imf::Header header_of(const OutputPicture &picture) {
                                  Imf::Channel(c < half_count(picture) ? Imf::HALF : Imf::FLOAT));
     for (const auto &[key, value] : picture.attributes)
         header.insert(key, Imf::StringAttribute(value));
+    if (const std::vector<float> &at = picture.chromaticities; at.size() == 8)
+        Imf::addChromaticities(header,
+                               {{at[0], at[1]}, {at[2], at[3]}, {at[4], at[5]}, {at[6], at[7]}});
     return header;
 }
 

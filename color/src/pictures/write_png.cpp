@@ -44,16 +44,32 @@ void keep_failure(png_structp png, png_const_charp message) {
     png_longjmp(png, 1);
 }
 
-/// Nothing here has a destructor: libpng jumps over it.
-bool encode(const Image &shape, int bits, const void *samples, png_structp png, png_infop info) {
-    if (setjmp(png_jmpbuf(png)))
-        return false;
+/// The chunks that say what the numbers mean.
+void write_head(const Image &shape, const CodedFile &file, png_structp png, png_infop info) {
     png_set_IHDR(png, info, static_cast<png_uint_32>(shape.width),
-                 static_cast<png_uint_32>(shape.height), bits,
+                 static_cast<png_uint_32>(shape.height), file.bits,
                  colour_type_of(shape.channels.size()), PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+    if (file.srgb)
+        png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+    if (!file.icc.empty())
+        png_set_iCCP(png, info, "display", PNG_COMPRESSION_TYPE_BASE,
+                     reinterpret_cast<png_const_bytep>(file.icc.data()),
+                     static_cast<png_uint_32>(file.icc.size()));
+    png_write_info_before_PLTE(png, info);
+    if (file.cicp[0] != 0) // [Png3] section 11.3.2.6, which libpng does not know
+        png_write_chunk(png, reinterpret_cast<png_const_bytep>("cICP"), file.cicp.data(),
+                        file.cicp.size());
     png_write_info(png, info);
+}
+
+/// Nothing here has a destructor: libpng jumps over it.
+bool encode(const Image &shape, const CodedFile &file, const void *samples, png_structp png,
+            png_infop info) {
+    if (setjmp(png_jmpbuf(png)))
+        return false;
+    const int bits = file.bits;
+    write_head(shape, file, png, info);
     if (bits == 16)
         png_set_swap(png); // the file's first byte is the high one
     const std::size_t row =
@@ -67,7 +83,7 @@ bool encode(const Image &shape, int bits, const void *samples, png_structp png, 
 
 } // namespace
 
-void write_png_samples(const std::filesystem::path &path, const Image &shape, int bits,
+void write_png_samples(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
                        const void *samples) {
     check_extension(path, ".png");
     Result result;
@@ -76,7 +92,7 @@ void write_png_samples(const std::filesystem::path &path, const Image &shape, in
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     if (png)
         png_set_write_fn(png, &result, keep_bytes, nullptr);
-    const bool good = info && encode(shape, bits, samples, png, info);
+    const bool good = info && encode(shape, file, samples, png, info);
     png_destroy_write_struct(&png, &info);
     if (!good)
         fail_encoding(path, result.failure.empty() ? "not enough memory" : result.failure);

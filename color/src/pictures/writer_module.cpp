@@ -11,9 +11,9 @@ class Writer final : public PictureWriter {
     void write_exr(const std::filesystem::path &path, const OutputPicture &picture) const override {
         write_exr_picture(path, picture);
     }
-    void write_png(const std::filesystem::path &path, const Image &shape, int bits,
+    void write_png(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
                    const void *samples) const override {
-        write_png_samples(path, shape, bits, samples);
+        write_png_samples(path, shape, file, samples);
     }
     std::string deflate(std::string_view bytes) const override { return deflate_bytes(bytes); }
     std::array<int, 2> text_size(const std::string &text, int size,

@@ -7,7 +7,7 @@
 namespace tsuya {
 
 void write_exr_picture(const std::filesystem::path &path, const OutputPicture &picture);
-void write_png_samples(const std::filesystem::path &path, const Image &shape, int bits,
+void write_png_samples(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
                        const void *samples);
 std::string deflate_bytes(std::string_view bytes);
 std::array<int, 2> size_of_text(const std::string &text, int size, const std::string &font);

@@ -9,8 +9,11 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "tsuya/color/rgb_primaries.h"
 #include "tsuya/sdk/image.h"
 #include "tsuya/sdk/spectral_image.h"
 
@@ -26,6 +29,29 @@ void check_pictures();
 /// number of channels or bits, a value that is NaN, or a file that cannot be written.
 void write_png(const std::filesystem::path &path, const Image &image, int bits = 8);
 
+/// How a picture of a display is written.
+struct PictureFileOptions {
+    int bits = 8; ///< of a sample: 8, or 16 for PNG and TIFF
+    /// Of display_names(), whose profile the file gets: none for sRGB, which every program takes
+    /// for granted and a PNG states; an ICC profile; for Rec.2100 the chunk cICP of a PNG [Png3].
+    /// Empty: one that is not known, without a profile.
+    std::string display = "sRGB";
+};
+
+/// Writes a picture as write_png, as what its ending says: `.png`, `.tif`, `.tiff`, `.jpg` or
+/// `.jpeg` (of quality 95, without alpha). Throws Error as write_png, for another ending, and for
+/// what the format does not have.
+void write_picture(const std::filesystem::path &path, const Image &image,
+                   const PictureFileOptions &options = {});
+
+/// The endings that write_picture takes.
+std::vector<std::string> picture_file_endings();
+
+/// Throws Error at `path` where write_picture refuses its ending or the options, whatever the
+/// picture is. \param alpha the picture has alpha
+void check_picture_file(const std::filesystem::path &path, const PictureFileOptions &options,
+                        bool alpha = false);
+
 /// Reads any picture that OpenImageIO reads (PNG, JPEG, TIFF, EXR, ...): the values as the file has
 /// them (encoded for a PNG: 255 becomes 1; linear for an EXR), channels named as in the file, the
 /// first part of a file of many. Throws Error at the path.
@@ -38,6 +64,7 @@ enum class SampleType { float32, half };
 struct ExrOptions {
     SampleType samples = SampleType::float32;
     std::map<std::string, std::string> metadata{}; ///< written as `tsuya:meta:<key>`
+    std::optional<RgbPrimaries> primaries{};       ///< of R, G, B: the attribute `chromaticities`
 };
 
 /// Writes all channels by their names. Floats come back exactly. Throws Error at the path, also for

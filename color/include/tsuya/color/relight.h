@@ -55,6 +55,9 @@ struct Lighting {
 /// One lamp for all light groups, with its name and caption.
 Lighting lighting_of(const NamedLamp &lamp);
 
+/// Throws Error as relight if the number of lamps or their factors do not fit the light groups.
+void check_lighting(const SpectralImage &transport, const Lighting &lighting);
+
 /// The picture under a lighting. Throws Error as relight.
 Image relight(const SpectralImage &transport, const Lighting &lighting,
               Observer observer = Observer::cie1931);
