@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab_picture.h"
 #include "rows.h"
 #include "tsuya/color/difference.h"
 #include "tsuya/color/relight.h"
@@ -22,31 +23,6 @@ void check(std::span<const Lighting> lamps) {
             if (lamps[i].name == lamps[j].name)
                 throw Error({"the lamp '" + lamps[i].name + "' is named twice",
                              "lamps." + std::to_string(i), "expected each lamp once"});
-}
-
-/// CIELAB of each pixel, adapted to sRGB's white; also takes the pixels that are not finite out.
-std::vector<glm::vec3> lab_picture(const SpectralImage &transport, const Lighting &lighting,
-                                   const CompareOptions &options, std::vector<char> &counts) {
-    Image xyz = relight(transport, lighting, options.observer);
-    if (transport.alpha)
-        divide_by_alpha(xyz, *transport.alpha);
-    const glm::dvec3 to = srgb_white();
-    const glm::dmat3 adapt =
-        std::exp2(options.exposure_stops) *
-        adaptation_matrix(options.adapt, adopted_white(transport, lighting, options.observer), to);
-    std::vector<glm::vec3> lab(counts.size(), glm::vec3(0.0f));
-    const auto width = static_cast<std::size_t>(xyz.width);
-    for_rows(xyz.height, width * 3, [&](int first, int end) {
-        for (std::size_t p = static_cast<std::size_t>(first) * width;
-             p < static_cast<std::size_t>(end) * width; ++p) {
-            const float *v = xyz.data.data() + 3 * p;
-            if (!std::isfinite(v[0] + v[1] + v[2]))
-                counts[p] = 0;
-            if (counts[p])
-                lab[p] = glm::vec3(lab_of(adapt * glm::dvec3(v[0], v[1], v[2]), to));
-        }
-    });
-    return lab;
 }
 
 LampDifference difference(const std::vector<glm::vec3> &a, const std::vector<glm::vec3> &b,
@@ -71,6 +47,30 @@ LampDifference difference(const std::vector<glm::vec3> &a, const std::vector<glm
 }
 
 } // namespace
+
+std::vector<glm::vec3> lab_picture(const SpectralImage &transport, const Lighting &lighting,
+                                   const CompareOptions &options, std::vector<char> &counts) {
+    Image xyz = relight(transport, lighting, options.observer);
+    if (transport.alpha)
+        divide_by_alpha(xyz, *transport.alpha);
+    const glm::dvec3 to = srgb_white();
+    const glm::dmat3 adapt =
+        std::exp2(options.exposure_stops) *
+        adaptation_matrix(options.adapt, adopted_white(transport, lighting, options.observer), to);
+    std::vector<glm::vec3> lab(counts.size(), glm::vec3(0.0f));
+    const auto width = static_cast<std::size_t>(xyz.width);
+    for_rows(xyz.height, width * 3, [&](int first, int end) {
+        for (std::size_t p = static_cast<std::size_t>(first) * width;
+             p < static_cast<std::size_t>(end) * width; ++p) {
+            const float *v = xyz.data.data() + 3 * p;
+            if (!std::isfinite(v[0] + v[1] + v[2]))
+                counts[p] = 0;
+            if (counts[p])
+                lab[p] = glm::vec3(lab_of(adapt * glm::dvec3(v[0], v[1], v[2]), to));
+        }
+    });
+    return lab;
+}
 
 std::vector<LampDifference> compare_lightings(const SpectralImage &transport,
                                               std::span<const Lighting> lightings,

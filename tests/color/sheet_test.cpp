@@ -85,6 +85,36 @@ TEST(Sheet, WritesWordsOutsideThePictures) {
     }
 }
 
+TEST(Sheet, RowsOfTheirOwnHeightHaveEmptyPlaces) {
+    Sheet sheet{.columns = 2};
+    add_rows(sheet, "", {picture(0.25f, ""), picture(0.5f, ""), picture(0.75f, "")});
+    add_rows(sheet, "", {picture(0.35f, "", 120, 30)});
+    ASSERT_EQ(sheet.pictures.size(), 6u);
+    EXPECT_EQ(sheet.row_labels.size(), 3u);
+    const Image out = draw_sheet(sheet);
+    for (const float level : {0.25f, 0.5f, 0.75f})
+        EXPECT_EQ(count(out, level), 120 * 90) << level;
+    EXPECT_EQ(count(out, 0.35f), 120 * 30);
+    EXPECT_LT(out.height, 4 * 90); // the row of 30 is no higher
+    EXPECT_GT(out.height, 2 * 90 + 30);
+}
+
+TEST(Sheet, WritesMarksOnPictures) {
+    if (!has_font())
+        GTEST_SKIP() << "no font on this system";
+    Sheet sheet{.pictures = {picture(0.25f, "two\nlines"), picture(0.75f, "")}, .columns = 2};
+    const int plain = draw_sheet(sheet).height;
+    sheet.pictures[0].marks = {{0.1, 0.5, "L* 50"}};
+    sheet.pictures[1].marks = {{0.1, 0.5, "L* 80"}};
+    const Image out = draw_sheet(sheet);
+    EXPECT_EQ(out.height, plain);
+    EXPECT_LT(count(out, 0.25f), 120 * 90 - 50); // letters lie on it
+    EXPECT_GT(count(out, 1.0f), 10);             // white on the dark one
+    EXPECT_GT(count(out, 0.0f), 10);             // black on the light one
+    sheet.pictures[0].caption = "one";
+    EXPECT_LT(draw_sheet(sheet).height, plain);
+}
+
 TEST(Sheet, RefusesWrongInput) {
     test::expect_problem([] { draw_sheet({}); }, "sheet.pictures", "no picture");
     test::expect_problem([] { draw_sheet({.pictures = {picture(0, "")}, .columns = -1}); },
@@ -94,6 +124,12 @@ TEST(Sheet, RefusesWrongInput) {
             draw_sheet({.pictures = {picture(0, ""), picture(0, "", 119)}});
         },
         "sheet.pictures.1", "119 x 90");
+    test::expect_problem(
+        [] {
+            draw_sheet({.pictures = {picture(0, ""), picture(0, "", 120, 91)}});
+        },
+        "sheet.pictures.1", "expected the height of its row, 90");
+    test::expect_problem([] { draw_sheet({.pictures = {{}}}); }, "sheet.pictures", "no picture");
     test::expect_problem(
         [] {
             draw_sheet({.pictures = {{Image::make(2, 2, {"X", "Y", "Z"}), ""}}});
