@@ -15,6 +15,7 @@
 #include "tsuya/color/lamp.h"
 #include "tsuya/lab/weave.h"
 #include "tsuya/scene/data_folder.h"
+#include "tsuya/scene/output_file.h"
 #include "tsuya/scene/studio_preset.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/model.h"
@@ -76,22 +77,36 @@ Json json_of(const Entry &entry) {
 struct List final : Command {
     std::string kind{};
     bool json = false;
-    std::filesystem::path data{};
+    std::filesystem::path data{}, output{};
 
     void options(Options &o) override {
         o.argument(&kind, "KIND", "kind of thing")
             .required()
-            .one_of({"lamps", "fabrics", "weaves", "dyes", "models", "views", "studios"});
+            .one_of({"lamps", "fabrics", "weaves", "dyes", "models", "views", "displays", "studios",
+                     "config"});
         o.flag("--json", &json, "print the names as JSON");
         o.option("--data", &data, "DIR", "folder of the sample data");
-        o.example("tsuya list lamps");
+        o.option("-o,--output", &output, "FILE.ocio",
+                 "file for `tsuya list config`; else it is printed")
+            .result({".ocio"})
+            .check([this] {
+                if (!output.empty() && kind != "config")
+                    throw Error({"only `tsuya list config` writes a file", "", "expected none"});
+            });
+        o.example("tsuya list lamps\n"
+                  "tsuya list config -o tsuya.ocio");
         o.notes(
             "Lamps: chromaticity, correlated colour temperature in K, distance from the Planckian "
             "locus, colour rendering index Ra, fidelity and gamut index Rf and Rg of TM-30. "
-            "D4000 to D25000, 500K to 100000K and mixtures are known, too.");
+            "D4000 to D25000, 500K to 100000K and mixtures are known, too.\n"
+            "Config: the OpenColorIO config of the program's pictures, with displays, views and a "
+            "look "
+            "for each lamp, for --ocio and for other programs.");
     }
 
     Status run(Console &) override {
+        if (kind == "config")
+            return write_config();
         const std::vector<Entry> list = entries();
         if (json) {
             Json named{{"schema", "tsuya-list 1"}, {"kind", kind}, {"entries", Json::array()}};
@@ -109,6 +124,18 @@ struct List final : Command {
             std::cout << entry.name << std::string(width + 2 - entry.name.size(), ' ')
                       << (entry.figures ? figures_text(*entry.figures) + "  " : "")
                       << entry.description << "\n";
+        return kDone;
+    }
+
+    Status write_config() const {
+        const DisplayConfig config = full_config();
+        if (output.empty()) {
+            std::cout << config.text();
+            return kDone;
+        }
+        scene::prepare_output_file(output);
+        config.save(output);
+        std::cout << output.string() << "\n";
         return kDone;
     }
 
@@ -161,6 +188,8 @@ struct List final : Command {
             return described(dye_names(), dye_description);
         if (kind == "views")
             return described(view_names(), view_description);
+        if (kind == "displays")
+            return described(display_names(), display_description);
         if (kind == "studios")
             return described(scene::studio_names(), scene::studio_description);
         if (kind == "weaves")

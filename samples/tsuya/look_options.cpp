@@ -2,7 +2,9 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
+#include "tsuya/color/srgb.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/sdk/error.h"
 #include "tsuya/sdk/model.h"
@@ -10,15 +12,30 @@
 namespace tsuya::program {
 
 LookOptions::LookOptions()
-    : adapt(to_string(scene::default_look().adapt)), view(scene::default_look().view) {}
+    : adapt(to_string(scene::default_look().adapt)), view(scene::default_look().view),
+      display(scene::default_look().display) {}
 
-void LookOptions::add_to(Options &options) {
+void LookOptions::add_to(Options &options, bool with_display) {
     adapt_ = &options
                   .option("--adapt", &adapt, "NAME",
                           "chromatic adaptation from the lamp to the display's white")
                   .one_of(adaptation_names());
-    options.option("--view", &view, "NAME", "display view, see `tsuya list views`")
-        .one_of(view_names());
+    options.option("--degree", &degree, "D", "degree of adaptation: 0 none, 1 full").range(0, 1);
+    view_ =
+        &options.option("--view", &view, "NAME",
+                        "display view, see `tsuya list views`; of the config where one is used");
+    if (with_display)
+        display_ = &options.option("--display", &display, "NAME",
+                                   "display: sRGB, Display P3, Rec.709, Rec.2020, Rec.2100-PQ, "
+                                   "Rec.2100-HLG; of the config where one is used");
+    options
+        .option("--ocio", &ocio, "FILE.ocio",
+                "OpenColorIO config in the place of the program's own, also without this option "
+                "where $OCIO names one; none: the program's own")
+        .check([this] {
+            if (config().empty())
+                check_display_options(look());
+        });
     options
         .option("--exposure", &exposure, "STOPS",
                 "exposure, -20 to 20 stops, of which each doubles the light; or metered: one for "
@@ -39,10 +56,31 @@ std::optional<double> LookOptions::stops() const {
     return value;
 }
 
+std::filesystem::path LookOptions::config() const {
+    if (ocio == "none")
+        return {};
+    const char *const variable = std::getenv("OCIO");
+    return ocio.empty() && variable ? variable : ocio;
+}
+
 DisplayOptions LookOptions::look() const {
-    return {.adapt = parse_adaptation(adapt),
-            .view = view,
-            .exposure_stops = metered() ? 0 : stops().value_or(0)};
+    DisplayOptions look{.adapt = parse_adaptation(adapt),
+                        .view = view,
+                        .exposure_stops = metered() ? 0 : stops().value_or(0),
+                        .degree = degree,
+                        .display = display,
+                        .config = config()};
+    const bool bright = display.starts_with("Rec.2100");
+    if (!(view_ && view_->given) && (bright || !look.config.empty()))
+        look.view = "";
+    if (!(display_ && display_->given) && !look.config.empty())
+        look.display = "";
+    return look;
+}
+
+void LookOptions::check() const {
+    const Image pixel{1, 1, {"X", "Y", "Z"}, {0.1f, 0.1f, 0.1f}};
+    tsuya::display(pixel, srgb_white(), look());
 }
 
 void add_sewing_tolerance(Options &options, std::optional<double> &metres) {

@@ -2,6 +2,7 @@
 /// \file
 /// Options that several commands have.
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +14,16 @@
 
 namespace tsuya::program {
 
-/// --adapt, --view and --exposure: how a picture is shown.
+/// --adapt, --degree, --view, --display, --ocio and --exposure: how a picture is shown.
 struct LookOptions {
     LookOptions();
-    void add_to(Options &options);
+    /// \param with_display false: pictures are for sRGB, and there is no --display
+    void add_to(Options &options, bool with_display = true);
+    /// The file that `--ocio` names, else that of the variable OCIO of the environment; empty:
+    /// ours.
+    std::filesystem::path config() const;
+    /// Throws Error where no picture can be shown so; reads the config where one is named.
+    void check() const;
     /// With an exposure of 0 where it is metered.
     DisplayOptions look() const;
     bool metered() const { return exposure == "metered"; }
@@ -24,13 +31,14 @@ struct LookOptions {
     /// --adapt was given.
     bool adapt_given() const { return adapt_ && adapt_->given; }
 
-    std::string adapt, view;
+    std::string adapt, view, display, ocio;
+    double degree = 1;
     std::string exposure = "0"; ///< stops, or `metered`
 
   private:
     std::optional<double> stops() const;
 
-    const Option *adapt_ = nullptr;
+    const Option *adapt_ = nullptr, *view_ = nullptr, *display_ = nullptr;
 };
 
 /// `--sewing-tolerance`, see garment::SeamOptions; shows the default that `metres` has.

@@ -6,6 +6,7 @@
 #include "look_options.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/relight.h"
+#include "tsuya/color/shown_picture.h"
 #include "tsuya/scene/exposure.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/own_lamps.h"
@@ -35,8 +36,17 @@ struct Relight final : Command {
             "another dye where it was left open: a name of `tsuya list dyes`, #rrggbb or F.csv; "
             "FABRIC=DYE where several are open; may be repeated");
         add_column(o, column);
-        o.option("-o,--output", &output, "OUT.png", "the picture").required().result({".png"});
-        o.option("--bits", &bits, "N", "bits of a sample of the PNG").one_of({"8", "16"});
+        o.option("-o,--output", &output, "OUT.png",
+                 "the picture; .png, .tif, .jpg, or .exr: linear light of Rec. 709, adapted and "
+                 "exposed, without a view")
+            .required()
+            .result({".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"})
+            .check([this] {
+                if (output.extension() != ".exr")
+                    check_picture_file(output, file_options());
+            });
+        o.option("--bits", &bits, "N", "bits of a sample: 16 for PNG and TIFF alone; EXR has 32")
+            .one_of({"8", "16"});
         look.add_to(o);
         add_threads(o, threads);
         o.example("tsuya relight dress.exr --lamp key=A --lamp fill=0.5*D65 -o dress.png");
@@ -44,6 +54,7 @@ struct Relight final : Command {
 
     Status run(Console &console) override {
         scene::check_output_file(output);
+        look.check();
         DisplayOptions display = look.look();
         detail::run_with_threads(threads, [&] {
             SpectralImage image = read_spectral_exr(transport);
@@ -57,12 +68,26 @@ struct Relight final : Command {
                 meter.add(image, named);
                 display.exposure_stops = meter.stops();
             }
-            const Image picture = scene::picture_under(image, named, display);
-            scene::prepare_output_file(output);
-            write_png(output, picture, bits);
+            write(image, scene::lighting_of_picture(image, named), display);
         });
         std::cout << output.string() << "\n";
         return kDone;
+    }
+    PictureFileOptions file_options() const {
+        return {.bits = bits, .display = look.look().config.empty() ? look.display : ""};
+    }
+
+    void write(const SpectralImage &image, const Lighting &lighting,
+               const DisplayOptions &display) const {
+        if (output.extension() == ".exr") {
+            const Image linear = linear_picture(image, lighting, display);
+            scene::prepare_output_file(output);
+            return write_exr(output, linear, {.primaries = kRec709});
+        }
+        check_picture_file(output, file_options(), image.alpha.has_value());
+        const Image picture = shown_picture(image, lighting, display);
+        scene::prepare_output_file(output);
+        write_picture(output, picture, file_options());
     }
 };
 

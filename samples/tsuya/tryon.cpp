@@ -123,6 +123,7 @@ struct TryOn final : Command {
                           "of --studio")
                      .with_commas()
                      .check([this] { scene::check_picture_lamps(job.lamps); });
+        add_column(o, job.column);
         o.option("--studio", &job.studio, "NAME",
                  "lights and backdrop, see `tsuya list studios`; under their own lamps the picture "
                  "is adapted by CAT02 unless --adapt says otherwise")
@@ -193,6 +194,7 @@ struct TryOn final : Command {
         job.invented_grain = parse_grain(grain);
         job.up = stated_up(up);
         check_results();
+        look.check();
         job.look = look.look();
         if (job.studio != scene::kDefaultStudio && !lamps->given) {
             job.lamps = {scene::kOwnLamps};

@@ -155,6 +155,11 @@ TEST(OwnLamps, AreKeptWithTheTransport) {
     EXPECT_EQ(mixed[0].name, "A");
     EXPECT_EQ(mixed[1].name, "HP4");
     EXPECT_EQ(mixed[2].name, "D65");
+    const std::vector<std::string> one_own{"fill=own", "A"};
+    const auto rest = parse_group_or_own_lamps(one_own, image);
+    EXPECT_EQ(rest[0].name, "A");
+    EXPECT_EQ(rest[1].name, "environment-blue");
+    EXPECT_EQ(rest[2].name, "A");
     const auto refuses = [&](const std::vector<std::string> &wrong) {
         EXPECT_THROW(parse_group_or_own_lamps(wrong, image), Error);
     };

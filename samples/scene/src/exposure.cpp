@@ -4,10 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "tsuya/color/lamp.h"
+#include "tsuya/color/relight.h"
 #include "tsuya/color/srgb.h"
 #include "tsuya/scene/own_lamps.h"
-#include "tsuya/scene/picture.h"
 
 namespace tsuya::scene {
 namespace {
@@ -42,17 +41,16 @@ double percentile(std::vector<double> &values, double share) {
 } // namespace
 
 ExposureMeter::ExposureMeter(const DisplayOptions &look) : look_(look) {
-    view_description(look.view);
+    check_display_options(look);
     bright_ = light_of(kBrightCode, look.view);
     clipped_ = light_of(kClippedCode, look.view);
 }
 
 void ExposureMeter::add(const SpectralImage &transport, std::span<const NamedLamp> lamps) {
-    if (lamps.size() == 1 && lamps[0].name == kOwnLamps)
-        return add(transport, own_lamps(transport));
-    const Image xyz = xyz_under(transport, lamps);
-    const glm::dmat3 adapt =
-        adaptation_matrix(look_.adapt, white_of(lamps.front().spectrum), srgb_white());
+    const Lighting lighting = lighting_of_picture(transport, lamps);
+    const Image xyz = relight(transport, lighting);
+    const glm::dmat3 adapt = adaptation_matrix(look_.adapt, adopted_white(transport, lighting),
+                                               srgb_white(), look_.degree);
     const Image *const coverage = garment_coverage(transport);
     std::vector<double> luminances, channels;
     for (int y = 0; y < xyz.height; ++y)

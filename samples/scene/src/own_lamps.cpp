@@ -1,6 +1,7 @@
 #include "tsuya/scene/own_lamps.h"
 
 #include <algorithm>
+#include <set>
 
 #include "tsuya/color/lamp.h"
 #include "tsuya/scene/environment_colours.h"
@@ -32,6 +33,37 @@ std::vector<std::string> others(std::span<const std::string> specs) {
     return rest;
 }
 
+/// Specs of the lamps of groups, `own` among them.
+struct SplitSpecs {
+    std::vector<std::string> plain{}; ///< with another lamp in the place of `own`
+    std::set<std::string> named{};    ///< the groups that have a spec of their own
+    std::set<std::string> own{};      ///< those of `own`; empty is for all others
+};
+
+SplitSpecs split_own(std::span<const std::string> specs) {
+    SplitSpecs split;
+    for (const std::string &spec : specs) {
+        const std::size_t equals = spec.find('=');
+        const std::string group = equals == std::string::npos ? "" : spec.substr(0, equals);
+        const std::string lamp = equals == std::string::npos ? spec : spec.substr(equals + 1);
+        if (equals != std::string::npos)
+            split.named.insert(group);
+        if (lamp == kOwnLamps)
+            split.own.insert(group);
+        split.plain.push_back(lamp == kOwnLamps ? spec.substr(0, spec.size() - lamp.size()) + "E"
+                                                : spec);
+    }
+    return split;
+}
+
+NamedLamp own_lamp(const SpectralImage &image, const std::string &group) {
+    const auto spec = image.metadata.find(key_of(group));
+    if (spec == image.metadata.end())
+        throw Error({"light group '" + group + "' has no lamp of its own", "lamp",
+                     "expected a lamp for it in the scene file, or " + group + "=LAMP"});
+    return lamp_of(spec->second);
+}
+
 } // namespace
 
 void note_own_lamps(SpectralImage &image, std::span<const std::string> lamps) {
@@ -42,14 +74,36 @@ void note_own_lamps(SpectralImage &image, std::span<const std::string> lamps) {
 
 std::vector<NamedLamp> own_lamps(const SpectralImage &image) {
     std::vector<NamedLamp> lamps;
-    for (const std::string &group : image.groups) {
-        const auto spec = image.metadata.find(key_of(group));
-        if (spec == image.metadata.end())
-            throw Error({"light group '" + group + "' has no lamp of its own", "lamp",
-                         "expected a lamp for it in the scene file, or " + group + "=LAMP"});
-        lamps.push_back(lamp_of(spec->second));
-    }
+    for (const std::string &group : image.groups)
+        lamps.push_back(own_lamp(image, group));
     return lamps;
+}
+
+std::vector<NamedLamp> page_lamps(const SpectralImage &image, const std::vector<NamedLamp> &lamps) {
+    std::vector<NamedLamp> all;
+    const auto add = [&](const NamedLamp &lamp) {
+        if (std::none_of(all.begin(), all.end(),
+                         [&](const NamedLamp &known) { return known.name == lamp.name; }))
+            all.push_back(lamp);
+    };
+    for (const NamedLamp &lamp : lamps)
+        if (lamp.name == kOwnLamps)
+            for (const NamedLamp &own : own_lamps(image))
+                add(own);
+        else
+            add(lamp);
+    return all;
+}
+
+Lighting lighting_of_picture(const SpectralImage &image, std::span<const NamedLamp> lamps) {
+    if (lamps.size() == 1 && lamps[0].name == kOwnLamps)
+        return {lamps[0].name, lamps[0].caption, own_lamps(image)};
+    Lighting lighting{.lamps = {lamps.begin(), lamps.end()}};
+    if (!lamps.empty()) {
+        lighting.name = lamps[0].name;
+        lighting.caption = lamps[0].caption;
+    }
+    return lighting;
 }
 
 void check_picture_lamps(std::span<const std::string> specs) {
@@ -59,11 +113,12 @@ void check_picture_lamps(std::span<const std::string> specs) {
 }
 
 std::vector<NamedLamp> parse_picture_lamps(std::span<const std::string> specs,
-                                           const std::filesystem::path &folder) {
+                                           const std::filesystem::path &folder,
+                                           const std::string &sample) {
     const std::vector<std::string> rest = others(specs);
     std::vector<NamedLamp> lamps;
     if (!rest.empty() || specs.empty())
-        lamps = parse_lamps(rest, folder);
+        lamps = parse_lamps(rest, folder, sample);
     const auto own = std::find(specs.begin(), specs.end(), kOwnLamps);
     if (own != specs.end())
         lamps.insert(lamps.begin() + (own - specs.begin()),
@@ -72,28 +127,18 @@ std::vector<NamedLamp> parse_picture_lamps(std::span<const std::string> specs,
 }
 
 void check_group_or_own_lamps(std::span<const std::string> specs) {
-    check_group_lamps(others(specs));
+    check_group_lamps(split_own(specs).plain);
 }
 
 std::vector<NamedLamp> parse_group_or_own_lamps(std::span<const std::string> specs,
                                                 const SpectralImage &image,
                                                 const std::string &sample) {
-    const std::vector<std::string> rest = others(specs);
-    if (rest.size() == specs.size())
-        return parse_group_lamps(rest, image.groups, {}, sample);
-    std::vector<NamedLamp> lamps = own_lamps(image);
-    for (const std::string &spec : rest) {
-        const std::string name = spec.substr(0, spec.find('='));
-        const auto group = std::find(image.groups.begin(), image.groups.end(), name);
-        if (name == spec || group == image.groups.end()) {
-            if (name == spec)
-                throw Error({"'own' and '" + spec + "' are both for all groups", "lamp",
-                             "expected one of them, and GROUP=LAMP"});
-            parse_group_lamps(rest, image.groups); // says which there are
-        }
-        const std::vector<std::string> one{spec}, of_it{name};
-        lamps[static_cast<std::size_t>(group - image.groups.begin())] =
-            parse_group_lamps(one, of_it, {}, sample).front();
+    const SplitSpecs split = split_own(specs);
+    std::vector<NamedLamp> lamps = parse_group_lamps(split.plain, image.groups, {}, sample);
+    for (std::size_t g = 0; g < image.groups.size(); ++g) {
+        const bool named = split.named.count(image.groups[g]) > 0;
+        if (split.own.count(named ? image.groups[g] : std::string()) > 0)
+            lamps[g] = own_lamp(image, image.groups[g]);
     }
     return lamps;
 }

@@ -10,6 +10,7 @@
 #include "tsuya/color/dye.h"
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/relight.h"
+#include "tsuya/color/shown_picture.h"
 #include "tsuya/color/spectrum_file.h"
 #include "tsuya/scene/own_lamps.h"
 #include "tsuya/sdk/error.h"
@@ -35,43 +36,28 @@ NamedLamp labelled(NamedLamp lamp) {
     return lamp;
 }
 
-bool is_own(std::span<const NamedLamp> lamps) {
-    return lamps.size() == 1 && lamps[0].name == kOwnLamps;
-}
-
 } // namespace
 
 Image xyz_under(const SpectralImage &transport, std::span<const NamedLamp> lamps) {
-    if (is_own(lamps))
-        return xyz_under(transport, own_lamps(transport));
-    std::vector<Spectrum> spectra;
-    RelightOptions options;
-    for (const NamedLamp &lamp : lamps) {
-        spectra.push_back(lamp.spectrum);
-        options.group_scale.push_back(lamp.factor);
-    }
-    if (lamps.size() == 1)
-        options.group_scale.assign(transport.groups.size(), lamps[0].factor);
-    return relight(transport, spectra, options);
+    return relight(transport, lighting_of_picture(transport, lamps));
 }
 
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
                     const DisplayOptions &look) {
-    if (is_own(lamps))
-        return picture_under(transport, own_lamps(transport), look);
-    Image xyz = xyz_under(transport, lamps);
-    const glm::dvec3 white = white_of(lamps[0].spectrum);
-    if (!transport.alpha)
-        return display(xyz, white, look);
-    divide_by_alpha(xyz, *transport.alpha);
-    const Image colours = display(xyz, white, look);
-    Image picture = Image::make(xyz.width, xyz.height, {"R", "G", "B", "A"});
-    for (int y = 0; y < xyz.height; ++y)
-        for (int x = 0; x < xyz.width; ++x) {
-            std::copy_n(colours.pixel(x, y), 3, picture.pixel(x, y));
-            picture.pixel(x, y)[3] = *transport.alpha->pixel(x, y);
-        }
-    return picture;
+    return picture_under(transport, lighting_of_picture(transport, lamps), look);
+}
+
+Image picture_under(const SpectralImage &transport, const Lighting &lighting,
+                    const DisplayOptions &look) {
+    return shown_picture(transport, lighting, look);
+}
+
+DisplayOptions page_look(DisplayOptions look) {
+    if (!look.config.empty())
+        look.view = default_look().view;
+    look.config.clear();
+    look.display = default_look().display;
+    return look;
 }
 
 std::string label_of(const std::string &spec) {
@@ -129,6 +115,15 @@ void check_group_lamps(std::span<const std::string> specs) {
         if (spec.starts_with('='))
             throw Error(
                 {"'" + spec + "' names no light group", "lamp", "expected LAMP or GROUP=LAMP"});
+        if (const std::string one_spec[] = {one.spec};
+            expand_lamp_sets(one_spec) != std::vector<std::string>{one.spec}) {
+            std::string members;
+            for (const std::string &member : expand_lamp_sets(one_spec))
+                members += (members.empty() ? "" : ", ") + member;
+            throw Error(
+                {"'" + one.spec + "' is a set of lamps, and a picture has one for each group",
+                 "lamp", "expected one of them: " + members});
+        }
         check_lamp_spec(one.spec);
         if (!groups.insert(one.name).second)
             throw Error({"two lamps for " + (one.name.empty() ? std::string("all light groups")

@@ -269,7 +269,7 @@ RenderResult render_try_on(const Scene &scene, const RenderSettings &settings,
 TryOnResult run(const TryOn &job, const Progress &progress) {
     check_pictures();
     std::vector<TryOnDye> dyes = parse_dyes(job);
-    const std::vector<NamedLamp> lamps = parse_picture_lamps(job.lamps);
+    const std::vector<NamedLamp> lamps = parse_picture_lamps(job.lamps, {}, job.column);
     studio_description(job.studio);
     view_description(job.look.view);
     Stage stage = make_stage(job, progress);

@@ -10,7 +10,7 @@ namespace tsuya::scene {
 
 TryOnPictures::TryOnPictures(const TryOn &job, std::vector<NamedLamp> lamps, TryOnResult &result)
     : job_(job), lamps_(std::move(lamps)), result_(result), look_(job.look),
-      meter_(job.look), sheet_{.columns = static_cast<int>(lamps_.size())} {}
+      meter_(job.look), sheet_{.columns = sheet_columns(lamps_.size())} {}
 
 std::filesystem::path TryOnPictures::transport(const Waiting &render) const {
     return job_.output / transport_name(render.dye, render.number);
@@ -37,15 +37,17 @@ void TryOnPictures::finish() {
 }
 
 void TryOnPictures::write_pictures(const SpectralImage &image, const Waiting &render) {
+    std::vector<SheetPicture> row;
     for (const NamedLamp &lamp : lamps_) {
         Image picture = picture_under(image, {&lamp, 1}, look_);
         result_.files.push_back(job_.output / picture_name(render.dye, lamp.name, render.number));
-        write_png(result_.files.back(), picture);
+        write_picture(result_.files.back(), picture,
+                      {.display = look_.config.empty() ? look_.display : ""});
         if (render.number.empty())
-            sheet_.pictures.push_back({std::move(picture), lamp.caption});
+            row.push_back({std::move(picture), lamp.caption, {}});
     }
     if (render.number.empty())
-        sheet_.row_labels.push_back(render.dye);
+        add_rows(sheet_, render.dye, std::move(row));
 }
 
 void TryOnPictures::write_sheet() {

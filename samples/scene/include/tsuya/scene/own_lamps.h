@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tsuya/color/lamp.h"
+#include "tsuya/color/relight.h"
 #include "tsuya/sdk/spectral_image.h"
 
 namespace tsuya::scene {
@@ -23,16 +24,25 @@ void note_own_lamps(SpectralImage &image, std::span<const std::string> lamps);
 /// The lamp of each group of its own. Throws Error at `lamp` where a group has none.
 std::vector<NamedLamp> own_lamps(const SpectralImage &image);
 
+/// What lights a picture: the lamps as picture_under takes them, with `own` replaced by the groups'
+/// own. Throws Error as own_lamps.
+Lighting lighting_of_picture(const SpectralImage &image, std::span<const NamedLamp> lamps);
+
+/// The lamps with those of the groups' own in the place of `own`, each name once: a page lights by
+/// spectra. Throws Error as own_lamps.
+std::vector<NamedLamp> page_lamps(const SpectralImage &image, const std::vector<NamedLamp> &lamps);
+
 /// As parse_lamps, where `own` is one of them as well: a lamp of that name, without a spectrum, as
 /// picture_under takes it.
 std::vector<NamedLamp> parse_picture_lamps(std::span<const std::string> specs,
-                                           const std::filesystem::path &folder = {});
+                                           const std::filesystem::path &folder = {},
+                                           const std::string &sample = {});
 
 /// Throws Error for names that parse_picture_lamps refuses whatever files there are.
 void check_picture_lamps(std::span<const std::string> specs);
 
-/// As parse_group_lamps, where `own` is one of the specs as well: the lamp of its own for every
-/// group that is not named. \param sample see parse_lamps
+/// As parse_group_lamps, where `own` is a lamp as well: `own`, the lamp of its own for every group
+/// that is not named, or `GROUP=own`. \param sample see parse_lamps
 std::vector<NamedLamp> parse_group_or_own_lamps(std::span<const std::string> specs,
                                                 const SpectralImage &image,
                                                 const std::string &sample = {});

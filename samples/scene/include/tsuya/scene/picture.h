@@ -9,6 +9,7 @@
 #include "tsuya/color/compare.h"
 #include "tsuya/color/config.h"
 #include "tsuya/color/live_page.h"
+#include "tsuya/color/relight.h"
 #include "tsuya/sdk/image.h"
 #include "tsuya/sdk/spectral_image.h"
 
@@ -24,10 +25,16 @@ Image xyz_under(const SpectralImage &transport, std::span<const NamedLamp> lamps
 
 /// Display-encoded R, G, B of the same; where the transport has alpha also A, by which the colours
 /// are not multiplied (as PNG has it).
-/// Where the look adapts, the eye is used to the lamp of the first group. Throws Error as relight
-/// and display.
+/// Where the look adapts, the eye is used to the adopted_white. Throws Error as relight and
+/// display.
 Image picture_under(const SpectralImage &transport, std::span<const NamedLamp> lamps,
                     const DisplayOptions &look = default_look());
+/// The same of a lighting.
+Image picture_under(const SpectralImage &transport, const Lighting &lighting,
+                    const DisplayOptions &look = default_look());
+
+/// The look of a page: in the place of a config or display that it has not, the program's own.
+DisplayOptions page_look(DisplayOptions look);
 
 /// Lamps as programs name them, such as `D65` or `my/lamp.csv`; a name of `lamp_sets()` stands for
 /// several. Each is called as label_of says. Throws Error as

@@ -75,6 +75,8 @@ struct TryOn {
     bool keeps_own_dye = false;          ///< a dyed fabric has its own dye in place of `dyes`
     std::string studio = kDefaultStudio; ///< see make_studio
     std::vector<std::string> lamps{"D65", "HP4", "A"}; ///< see parse_picture_lamps
+    /// Which of several spectra the files of lamps and dyes hold, where a spec does not say so
+    std::string column{};
     double azimuth_deg = 25;   ///< of the camera: 0 sees the garment's front (+z), 90 its left (+x)
     bool orthographic = false; ///< parallel rays, see Framing
     std::optional<Lens> lens{}; ///< focused on the garment unless it says where; empty: all sharp
