@@ -1,18 +1,23 @@
 // tsuya compare: renders under several lamps, side by side, in numbers, and as a page.
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 
 #include "command.h"
+#include "compare_report.h"
 #include "json_file.h"
 #include "look_options.h"
+#include "tsuya/color/color_report.h"
 #include "tsuya/color/compare.h"
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/live_page.h"
 #include "tsuya/color/sheet.h"
+#include "tsuya/scene/compare_sheet.h"
 #include "tsuya/scene/exposure.h"
 #include "tsuya/scene/output_file.h"
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/scene/tryon.h"
 #include "tsuya/sdk/detail/threads.h"
@@ -44,23 +49,28 @@ void print(const DyedDifferences &dyed) {
 }
 
 struct Compare final : Command {
+    Compare() { look.exposure = "metered"; }
+
     std::vector<std::filesystem::path> transports{};
     std::filesystem::path output{}, report{}, html{};
     std::vector<std::string> lamps{}, dyes{};
     std::string column{};
     bool json = false;
-    int threads = 0;
+    int threads = 0, observer = 10;
     LookOptions look{};
 
     void options(Options &o) override {
         o.argument(&transports, "OUT.exr...", "light transport from render or tryon, one or more")
             .with_words()
             .required();
-        o.option("--lamps", &lamps, "A,B,...",
-                 "two or more of `tsuya list lamps`, files of spectra, or a set of lamps")
+        o.option(
+             "--lamps", &lamps, "A,B,...",
+             "two or more of `tsuya list lamps`, files of spectra, a set of lamps, or `own`: each "
+             "light group has the lamp that its scene or studio gave it; the first is the "
+             "reference")
             .with_commas()
             .check([this] {
-                scene::check_lamps(lamps);
+                scene::check_picture_lamps(lamps);
                 if (expand_lamp_sets(lamps).size() < 2)
                     throw Error({"one lamp is named", "", "expected two or more"});
             })
@@ -83,42 +93,112 @@ struct Compare final : Command {
                  "page that shows the pictures under any lamp, and in any dye where it was left "
                  "open; one file, which needs no network")
             .result({".html"});
-        o.option("--report", &report, "FILE.json", "file for the colour differences")
-            .result({".json"});
+        o.option(
+             "--report", &report, "FILE.json",
+             "report of each fabric and panel: colour, difference and inconstancy between lamps, "
+             "match and metamerism of cloths; .json, .csv or .txt")
+            .result({".json", ".csv", ".txt"});
+        o.option("--observer", &observer, "DEG",
+                 "standard observer of the differences that are printed; a report has both")
+            .one_of({"2", "10"});
         o.flag("--json", &json, "print the colour differences as JSON");
-        look.add_to(o);
+        look.add_to(o, false);
         add_threads(o, threads);
         o.example("tsuya compare dress.exr --lamps D65,HP4,A -o sheet.png\n"
                   "tsuya compare dress.exr --lamps D65,A --html page.html");
-        o.notes("Prints CIEDE2000 between the lamps, each picture adapted to D65 by CAT02.");
+        o.notes(
+            "Prints CIEDE2000 between the lamps, each picture adapted to D65 by CAT02. Pictures "
+            "are for 2 degrees, as displays are.");
     }
 
     Status run(Console &console) override {
         for (const std::filesystem::path &file : {output, report, html})
             if (!file.empty())
                 scene::check_output_file(file);
+        look.check();
         std::vector<DyedDifferences> differences;
         std::string page;
+        ColorReport colours;
+        double out_of_gamut = 0;
         detail::run_with_threads(threads, [&] {
-            const std::vector<NamedLamp> named = scene::parse_lamps(lamps, {}, column);
+            const std::vector<NamedLamp> named = scene::parse_picture_lamps(lamps, {}, column);
             for (const NamedLamp &lamp : named)
                 console.warnings(lamp.warnings);
             const std::vector<PageDress> dresses = read_dresses();
-            differences = compare(dresses, named, console);
+            const DisplayOptions display = shown_look(dresses, named);
+            differences = compare(dresses, named, display, console);
+            if (!report.empty() || json || !output.empty())
+                colours = report_on(dresses, named, display);
+            if (!output.empty())
+                out_of_gamut = draw(dresses, named, display, colours);
             if (!html.empty())
                 page = make_page(dresses, named);
         });
-        const Json numbers = json_of_differences(differences);
+        Json numbers = json_of_differences(differences);
+        numbers.update(json_of_report(colours));
         if (!report.empty())
-            write_json(report, numbers);
+            write_report(colours, numbers);
         if (json)
             std::cout << numbers.text() << "\n";
         else {
             for (const DyedDifferences &dyed : differences)
                 print(dyed);
+            if (!output.empty())
+                std::cout << output.string() << ": at most " << 100 * out_of_gamut
+                          << " % of the garment's pixels are out of the gamut of sRGB\n";
             std::cout << page;
         }
         return kDone;
+    }
+
+    void write_report(const ColorReport &colours, const Json &numbers) const {
+        scene::prepare_output_file(report);
+        const std::string ending = report.extension().string();
+        if (ending == ".csv")
+            write_file(report, csv_of(colours));
+        else if (ending == ".txt")
+            write_file(report, text_of(colours));
+        else
+            write_json(report, numbers);
+    }
+
+    Observer eye() const { return observer == 2 ? Observer::cie1931 : Observer::cie1964; }
+
+    /// The dyes of rows; one without a name where none are given.
+    std::vector<std::string> shown_dyes() const {
+        return dyes.empty() ? std::vector<std::string>{""} : dyes;
+    }
+
+    static std::vector<Lighting> lightings_of(const SpectralImage &image,
+                                              const std::vector<NamedLamp> &named) {
+        std::vector<Lighting> lightings;
+        for (const NamedLamp &lamp : named)
+            lightings.push_back(scene::lighting_of_picture(image, {&lamp, 1}));
+        return lightings;
+    }
+
+    ColorReport report_on(const std::vector<PageDress> &dresses,
+                          const std::vector<NamedLamp> &named,
+                          const DisplayOptions &display) const {
+        ColorReporter reporter({.exposure_stops = display.exposure_stops});
+        for (const PageDress &dress : dresses) {
+            SpectralImage image = dress.image;
+            for (const std::string &dye : shown_dyes()) {
+                if (!dye.empty())
+                    scene::show_dyes(image, {&dye, 1});
+                reporter.add({dress.name, scene::file_stem_of(dye), lightings_of(image, named)},
+                             image);
+            }
+        }
+        return reporter.report();
+    }
+
+    DisplayOptions shown_look(const std::vector<PageDress> &dresses,
+                              const std::vector<NamedLamp> &named) const {
+        DisplayOptions display = look.look();
+        if (look.metered())
+            display.exposure_stops = metered_stops(dresses, named, display);
+        return display;
     }
 
     /// The pictures, each called as its file.
@@ -132,7 +212,9 @@ struct Compare final : Command {
     /// Writes the page. \return what to say about it
     std::string make_page(const std::vector<PageDress> &dresses,
                           const std::vector<NamedLamp> &named) const {
-        PageOptions options{.title = dresses[0].name, .lamps = named, .look = look.look()};
+        PageOptions options{.title = dresses[0].name,
+                            .lamps = scene::page_lamps(dresses[0].image, named),
+                            .look = scene::page_look(look.look())};
         for (std::size_t i = 1; i < dresses.size(); ++i)
             options.title += ", " + dresses[i].name;
         for (const std::string &dye : dyes)
@@ -143,41 +225,46 @@ struct Compare final : Command {
         return scene::page_summary(html, made);
     }
 
-    /// Draws the sheet where one is asked for.
     std::vector<DyedDifferences> compare(const std::vector<PageDress> &dresses,
                                          const std::vector<NamedLamp> &named,
-                                         Console &console) const {
-        DisplayOptions display = look.look();
-        const std::vector<std::string> rows = dyes.empty() ? std::vector<std::string>{""} : dyes;
-        if (look.metered())
-            display.exposure_stops = metered_stops(dresses, rows, named, display);
+                                         const DisplayOptions &display, Console &console) const {
         std::vector<DyedDifferences> differences;
-        Sheet sheet{.columns = static_cast<int>(named.size())};
         for (std::size_t i = 0; i < dresses.size(); ++i) {
             SpectralImage image = dresses[i].image;
-            for (const std::string &dye : rows) {
+            for (const std::string &dye : shown_dyes()) {
                 if (!dye.empty())
                     console.warnings(scene::show_dyes(image, {&dye, 1}));
-                if (!dye.empty() || dresses.size() > 1)
-                    sheet.row_labels.push_back(row_label(dresses, i, dye));
                 differences.push_back(
                     {dresses.size() > 1 ? transports[i].string() : "", dye,
-                     compare_lamps(image, named, {.exposure_stops = display.exposure_stops})});
-                if (output.empty())
-                    continue;
-                for (const NamedLamp &lamp : named)
-                    sheet.pictures.push_back(
-                        {scene::picture_under(image, {&lamp, 1}, display), lamp.caption});
+                     compare_lightings(
+                         image, lightings_of(image, named),
+                         {.observer = eye(), .exposure_stops = display.exposure_stops})});
             }
         }
-        if (!report.empty())
-            scene::prepare_output_file(report);
-        if (!output.empty()) {
-            const Image drawn = draw_sheet(sheet);
-            scene::prepare_output_file(output);
-            write_png(output, drawn);
-        }
         return differences;
+    }
+
+    /// Writes the sheet. \return the largest share of pixels out of gamut
+    double draw(const std::vector<PageDress> &dresses, const std::vector<NamedLamp> &named,
+                const DisplayOptions &display, const ColorReport &colours) const {
+        scene::CompareSheet sheet(named, display, eye());
+        for (std::size_t i = 0; i < dresses.size(); ++i) {
+            SpectralImage image = dresses[i].image;
+            for (const std::string &dye : shown_dyes()) {
+                if (!dye.empty())
+                    scene::show_dyes(image, {&dye, 1});
+                std::vector<PartReport> parts;
+                for (const PartReport &part : colours.parts)
+                    if (part.picture == dresses[i].name && part.dye == scene::file_stem_of(dye))
+                        parts.push_back(part);
+                const bool many = !dye.empty() || dresses.size() > 1;
+                sheet.add(many ? row_label(dresses, i, dye) : "", image, parts);
+            }
+        }
+        const Image drawn = draw_sheet(sheet.sheet());
+        scene::prepare_output_file(output);
+        write_png(output, drawn);
+        return sheet.most_out_of_gamut();
     }
 
     static std::string row_label(const std::vector<PageDress> &dresses, std::size_t dress,
@@ -188,27 +275,35 @@ struct Compare final : Command {
         return dresses[dress].name + (dye.empty() ? "" : ", ") + of_dye;
     }
 
-    static double metered_stops(const std::vector<PageDress> &dresses,
-                                const std::vector<std::string> &rows,
-                                const std::vector<NamedLamp> &named,
-                                const DisplayOptions &display) {
-        scene::ExposureMeter meter(display);
+    /// One exposure for all pictures of the sheet, adapted and not.
+    double metered_stops(const std::vector<PageDress> &dresses, const std::vector<NamedLamp> &named,
+                         const DisplayOptions &display) const {
+        DisplayOptions adapted = display, plain = display;
+        plain.adapt = Adaptation::none;
+        if (display.adapt == Adaptation::none)
+            adapted.adapt = Adaptation::cat02;
+        scene::ExposureMeter plain_meter(plain), adapted_meter(adapted);
         for (const PageDress &dress : dresses) {
             SpectralImage image = dress.image;
-            for (const std::string &dye : rows) {
+            for (const std::string &dye : shown_dyes()) {
                 if (!dye.empty())
                     scene::show_dyes(image, {&dye, 1});
-                for (const NamedLamp &lamp : named)
-                    meter.add(image, {&lamp, 1});
+                for (const NamedLamp &lamp : named) {
+                    plain_meter.add(image, {&lamp, 1});
+                    const Lighting lighting = scene::lighting_of_picture(image, {&lamp, 1});
+                    if (can_adapt(adapted.adapt, adopted_white(image, lighting)))
+                        adapted_meter.add(image, {&lamp, 1});
+                }
             }
         }
-        return meter.stops();
+        return std::min(plain_meter.stops(), adapted_meter.stops());
     }
 
     Json json_of_differences(const std::vector<DyedDifferences> &differences) const {
-        Json numbers{{"schema", "tsuya-compare 1"},
+        Json numbers{{"schema", "tsuya-compare 2"},
                      {"transport", transports[0].string()},
                      {"measure", "CIEDE2000"},
+                     {"observer_deg", observer},
                      {"adaptation", to_string(CompareOptions{}.adapt)},
                      {"differences", Json::array()}};
         for (const DyedDifferences &dyed : differences)

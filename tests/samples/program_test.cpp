@@ -76,11 +76,11 @@ TEST(Program, LooksAtThePlaceBeforeItReads) {
     const Scratch scratch;
     const std::string folder = scratch.folder().string();
     for (const std::vector<std::string> &call : std::vector<std::vector<std::string>>{
-             {"relight", "none.exr", "--lamp", "A", "-o", folder + "/n/a.jpg"},
+             {"relight", "none.exr", "--lamp", "A", "-o", folder + "/n/a.gif"},
              {"compare", "none.exr", "--lamps", "A,D65", "-o", folder + "/n/a.exr"},
              {"fabric", "fit", "none.csv", "-o", folder + "/n/a.csv"},
              {"fabric", "evaluate", "none", "--against", "none.csv", "--values", folder + "/n/a"},
-             {"fabric", "show", "none", "-o", folder + "/n/a.jpg"},
+             {"fabric", "show", "none", "-o", folder + "/n/a.gif"},
              {"fabric", "simulate", "none.toml", "-o", folder + "/n/a.png"},
              {"garment", "subdivide", "none.obj", "-o", folder + "/n/a.stl"}}) {
         const Outcome wrong = run(scratch, call);
@@ -224,62 +224,6 @@ TEST(Program, StopsTheCheckOfALargeMesh) {
                                         scratch.folder(), once(SIGTERM, "\"garment: read\""));
     EXPECT_EQ(stopped.status, 3) << stopped.err;
     EXPECT_EQ(stopped.out, "");
-}
-
-TEST(Program, RelightsAndCompares) {
-    const Scratch scratch;
-    const std::string exr = (scratch / "a.exr").string();
-    ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", exr}).status, 0);
-    const std::string png = (scratch / "p/a.png").string();
-    const Outcome relit = run(scratch, {"relight", exr, "--lamp", "key=A", "--lamp", "fill=D65",
-                                        "-o", png, "--adapt", "cat02", "--exposure", "1"});
-    ASSERT_EQ(relit.status, 0) << relit.err;
-    EXPECT_EQ(relit.out, png + "\n");
-    expect_picture(png, 16, 20);
-    EXPECT_EQ(run(scratch, {"relight", exr, "--lamp", "rim=A", "-o", png}).status, 1);
-    EXPECT_EQ(run(scratch, {"relight", png, "--lamp", "A", "-o", png + ".png"}).status, 1);
-
-    const Outcome metered =
-        run(scratch, {"relight", exr, "--lamp", "D65", "-o", png, "--exposure", "metered"});
-    EXPECT_EQ(metered.status, 0) << metered.err;
-
-    const std::string sheet = (scratch / "sheet.png").string(),
-                      report = (scratch / "report.json").string();
-    const Outcome compared = run(scratch, {"compare", exr, "--lamps", "D65,A,HP4", "-o", sheet,
-                                           "--report", report, "--exposure", "metered"});
-    ASSERT_EQ(compared.status, 0) << compared.err;
-    EXPECT_NE(compared.out.find("CIEDE2000"), std::string::npos);
-    const json numbers = json::parse(read_file(report));
-    EXPECT_EQ(numbers.at("schema"), "tsuya-compare 1");
-    ASSERT_EQ(numbers.at("differences").size(), 3u);
-    EXPECT_GT(numbers["differences"][0].at("mean"), 0.1);
-    EXPECT_GT(read_image(sheet).width, 3 * 16);
-}
-
-TEST(Program, WritesALivePageOfSeveralPictures) {
-    const Scratch scratch;
-    const std::string first = (scratch / "first.exr").string(),
-                      second = (scratch / "second.exr").string(),
-                      page = (scratch / "p/page.html").string();
-    ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", first}).status, 0);
-    std::filesystem::copy_file(first, second);
-    const Outcome made =
-        run(scratch, {"compare", first, second, "--lamps", "D65,A", "--html", page});
-    ASSERT_EQ(made.status, 0) << made.err;
-    EXPECT_NE(made.out.find(second + ": CIEDE2000"), std::string::npos) << made.out;
-    EXPECT_NE(made.out.find(page + ": "), std::string::npos) << made.out;
-    EXPECT_NE(made.out.find("(99th percentile) of the file's"), std::string::npos) << made.out;
-    const std::string html = read_file(page);
-    EXPECT_TRUE(html.starts_with("<!DOCTYPE html>"));
-    EXPECT_NE(html.find("<title>first, second</title>"), std::string::npos);
-    EXPECT_NE(html.find("id=\"planes-1\""), std::string::npos);
-    // A dye that is fixed is no input, and leaves no page.
-    const std::string dyed = (scratch / "dyed.html").string();
-    EXPECT_EQ(
-        run(scratch, {"compare", first, "--lamps", "D65,A", "--dyes", "crimson", "--html", dyed})
-            .status,
-        1);
-    EXPECT_FALSE(std::filesystem::exists(dyed));
 }
 
 TEST(Program, ChecksGarments) {
