@@ -2,17 +2,7 @@
 
 /** Weight of each channel at the wavelengths, for dyes that are shown: [channel][nanometre]. */
 function channelWeights(channels, dyes) {
-    return channels.kind === 'depths' ? depthWeights(channels, dyes)
-                                      : hatWeights(channels.count, channels.first_nm, channels.last_nm);
-}
-
-/** Hat functions with equally spaced centres; the outermost are constant beyond them. */
-function hatWeights(count, first, last) {
-    const step = (last - first) / (count - 1);
-    return Array.from({length: count}, (_, k) => WAVELENGTHS.map(nm => {
-        const place = clamp((nm - first) / step, 0, count - 1);
-        return Math.max(0, 1 - Math.abs(place - k));
-    }));
+    return channels.kind === 'depths' ? depthWeights(channels, dyes) : channels.weights;
 }
 
 /** The polynomial through the depths of dye, at the dyes' reflectances. */

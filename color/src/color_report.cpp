@@ -84,16 +84,9 @@ PartChange change_of(const LitPicture &reference, const LitPicture &test,
 std::vector<Spectrum> mean_reflectance(const SpectralImage &transport,
                                        const std::vector<std::size_t> &pixels) {
     const auto channels = static_cast<std::size_t>(transport.basis.count);
-    const auto weights_at = [&, weights = transport.depths
-                                              ? std::optional<DepthWeights>(*transport.depths)
-                                              : std::nullopt](int nm) {
-        if (weights)
-            return weights->at_nm(nm);
-        std::vector<double> hats;
-        for (int k = 0; k < transport.basis.count; ++k)
-            hats.push_back(transport.basis.weight(k, nm));
-        return hats;
-    };
+    const BasisWeights of_basis(transport.basis);
+    const auto of_depths =
+        transport.depths ? std::optional<DepthWeights>(*transport.depths) : std::nullopt;
     std::vector<Spectrum> means;
     for (std::size_t g = 0; g < transport.groups.size(); ++g) {
         std::vector<double> mean(channels, 0.0);
@@ -105,7 +98,8 @@ std::vector<Spectrum> mean_reflectance(const SpectralImage &transport,
         }
         Spectrum spectrum{{}, {}};
         for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
-            const std::vector<double> weights = weights_at(nm);
+            const std::vector<double> weights =
+                of_depths ? of_depths->at_nm(nm) : of_basis.at_nm(nm);
             spectrum.wavelength_nm.push_back(nm);
             spectrum.value.push_back(
                 std::inner_product(mean.begin(), mean.end(), weights.begin(), 0.0));

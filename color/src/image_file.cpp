@@ -139,11 +139,16 @@ void write_exr(const std::filesystem::path &path, const Image &image, const ExrO
                           .samples = options.samples};
     for (const auto &[key, value] : options.metadata)
         picture.attributes["tsuya:meta:" + key] = value;
-    if (options.primaries)
-        for (const glm::dvec2 &xy : {options.primaries->red, options.primaries->green,
-                                     options.primaries->blue, options.primaries->white})
+    if (options.primaries) {
+        const RgbPrimaries &p = *options.primaries;
+        PictureColours colours;
+        auto next = colours.chromaticities.begin();
+        for (const glm::dvec2 &xy : {p.red, p.green, p.blue, p.white})
             for (const double v : {xy.x, xy.y})
-                picture.chromaticities.push_back(static_cast<float>(v));
+                *next++ = static_cast<float>(v);
+        colours.neutral = {colours.chromaticities[6], colours.chromaticities[7]};
+        picture.colours = colours;
+    }
     const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
     picture.fill_row = [&](int y, float *out) { std::copy_n(image.pixel(0, y), row, out); };
     picture_writer().write_exr(path, picture);

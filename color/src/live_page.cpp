@@ -25,6 +25,9 @@ void check_image(const PageDress &dress, const std::string &where) {
         throw Error({"the picture '" + dress.name + "' holds " +
                          std::to_string(image.transport.size()) + " numbers",
                      where, "expected width x height x light groups x channels, at least one"});
+    if (image.emissive)
+        throw Error({"the picture '" + dress.name + "' is radiance, whose lamp cannot be exchanged",
+                     where, "expected light transport"});
     if (!image.depths)
         return;
     check_dye_depths(*image.depths, where);

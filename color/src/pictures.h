@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,9 +27,16 @@ struct PicturePlace {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// A picture to write, row by row.
+/// What the colours R, G, B of a picture are.
+struct PictureColours {
+    std::array<float, 8> chromaticities{}; ///< x, y of red, green, blue and white
+    std::array<float, 2> neutral{};        ///< x, y of what is to be seen as neutral
+};
+
+/// A picture to write, row by row; or a part of a file of several.
 struct OutputPicture {
-    int width = 0; ///< of what is written
+    std::string part{}; ///< its name; of a file of several
+    int width = 0;      ///< of what is written
     int height = 0;
     /// Its place in a picture that may be larger; empty: it is the whole
     std::optional<PicturePlace> place{};
@@ -37,7 +45,7 @@ struct OutputPicture {
     /// Number of the channel from which on all are float32: those before are as `samples` says
     std::size_t exact_from = std::numeric_limits<std::size_t>::max();
     std::map<std::string, std::string> attributes{};
-    std::vector<float> chromaticities{}; ///< x, y of red, green, blue, white; empty: not stated
+    std::optional<PictureColours> colours{};
     /// Fills one row: width x channels floats, interleaved.
     std::function<void(int y, float *row)> fill_row{};
 };
@@ -53,6 +61,7 @@ struct CodedFile {
 
 /// A picture as it was read, with its string attributes.
 struct InputPicture {
+    std::string part{};   ///< the name of its part; empty where the file has no names
     std::string format{}; ///< OpenImageIO's name of the file format, e.g. openexr
     Image image{};
     PicturePlace place{}; ///< its pixels in the whole that the file describes
@@ -96,6 +105,9 @@ class PictureWriter {
     virtual ~PictureWriter() = default;
     virtual void write_exr(const std::filesystem::path &path,
                            const OutputPicture &picture) const = 0;
+    /// A file of two or more parts.
+    virtual void write_exr_parts(const std::filesystem::path &path,
+                                 std::span<const OutputPicture> parts) const = 0;
     /// A PNG. Values are rows of width x channels samples.
     virtual void write_png(const std::filesystem::path &path, const Image &shape,
                            const CodedFile &file, const void *samples) const = 0;
@@ -113,7 +125,8 @@ class PictureWriter {
 class PictureReader {
   public:
     virtual ~PictureReader() = default;
-    virtual InputPicture read(const std::filesystem::path &path) const = 0;
+    virtual InputPicture read(const std::filesystem::path &path) const = 0; ///< the first part
+    virtual std::vector<InputPicture> read_parts(const std::filesystem::path &path) const = 0;
     /// Floats are clamped to [0, 1]; one that is not a number is an Error.
     virtual EncodedPicture read_encoded(const std::filesystem::path &path,
                                         FloatCode floats) const = 0;

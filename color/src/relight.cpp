@@ -43,6 +43,10 @@ void check(const SpectralImage &transport, std::span<const Spectrum> lamps,
         if (!(options.group_scale[g] >= 0) || std::isinf(options.group_scale[g]))
             throw Error({"the scale is " + std::to_string(options.group_scale[g]),
                          "group_scale." + transport.groups[g], "expected 0 or more"});
+    if (transport.emissive && !std::all_of(lamps.begin(), lamps.end(),
+                                           [](const Spectrum &lamp) { return lamp.is_constant(); }))
+        throw Error({"the picture is radiance, with the light of its lamp in it", "lamps",
+                     "expected the lamp E, which leaves it as it is"});
 }
 
 /// The mean of the channels of each light group over the pixels of the garment that are finite, and
@@ -68,10 +72,12 @@ std::vector<double> group_levels(const SpectralImage &transport) {
 std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
                                     Observer observer) {
     std::vector<glm::dvec3> matrix(static_cast<std::size_t>(basis.count), glm::dvec3(0.0));
-    for (const ColorWeight &weight : color_weights(lamp, observer))
-        for (int k = 0; k < basis.count; ++k)
-            matrix[static_cast<std::size_t>(k)] +=
-                basis.weight(k, weight.wavelength_nm) * weight.xyz;
+    const BasisWeights weights(basis);
+    for (const ColorWeight &weight : color_weights(lamp, observer)) {
+        const std::vector<double> of_channels = weights.at_nm(weight.wavelength_nm);
+        for (std::size_t k = 0; k < matrix.size(); ++k)
+            matrix[k] += of_channels[k] * weight.xyz;
+    }
     return matrix;
 }
 

@@ -37,7 +37,7 @@ struct Render final : Command {
     double checkpoint_seconds = RenderSettings{}.checkpoint_seconds;
     bool resume = false, explains = false, denoises = false, keeps_lobes = false, no_cache = false,
          json = false;
-    bool alpha = false;
+    bool alpha = false, floats = false;
 
     void options(Options &o) override {
         o.argument(&scene, "SCENE.toml", "scene file").required();
@@ -72,6 +72,8 @@ struct Render final : Command {
         o.option("--aov", &aovs, "A,B,...", "AOVs to write beside the light transport")
             .with_commas()
             .one_of(aov_names());
+        o.flag("--float", &floats,
+               "write the light transport in floats: files of twice the size, for measurements");
         o.flag("--alpha", &alpha,
                "pictures with alpha: without the scene's backdrop, and without the environment "
                "behind what is shown");
@@ -260,6 +262,7 @@ struct Render final : Command {
                       : path;
     }
 
+    SampleType samples_of_file() const { return floats ? SampleType::float32 : SampleType::half; }
     fs::path transport(std::size_t frame) const { return of_frame(output, frame); }
     fs::path checkpoint() const { return transport(frame_) += ".checkpoint"; }
 
@@ -328,7 +331,7 @@ struct Render final : Command {
     /// A picture that cannot be written does not end the render.
     void write_snapshot(const RenderResult &result, Console &console) const {
         try {
-            write_spectral_exr(transport(frame_), result.image);
+            scene::write_transport(transport(frame_), result.image, samples_of_file());
         } catch (const Error &problems) {
             console.warnings(problems);
         }
@@ -357,7 +360,8 @@ struct Render final : Command {
         // Stopped before the first sample: what stands under the name is not replaced by nothing
         if (result.stats.interrupted && result.stats.samples_per_pixel == 0)
             return;
-        write_spectral_exr(transport(frame_), result.image);
+        round_as_written(result.image, samples_of_file());
+        scene::write_transport(transport(frame_), result.image, samples_of_file());
         std::cout << transport(frame_).string() << "\n";
         // Only now is the checkpoint of no more use
         if (!result.stats.interrupted)

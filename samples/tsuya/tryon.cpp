@@ -28,6 +28,7 @@ struct TryOn final : Command {
     std::optional<int> samples{};
     std::optional<double> f_number{};
     bool keeps_noise = false, keeps_lobes = false, no_backdrop = false, no_cache = false;
+    bool floats = false;
     const Option *dye = nullptr, *channels = nullptr, *lamps = nullptr;
 
     void options(Options &o) override {
@@ -161,6 +162,8 @@ struct TryOn final : Command {
         o.flag("--no-widening", &keeps_lobes,
                "let light that was scattered diffusely meet every lobe as narrow as it is, as for "
                "measurements");
+        o.flag("--float", &floats,
+               "write light transport in floats: files of twice the size, for measurements");
         add_threads(o, job.render.threads);
         o.option("--seed", &job.render.seed, "N", "random seed");
         add_cache(o, no_cache);
@@ -203,6 +206,7 @@ struct TryOn final : Command {
         }
         job.metered = look.metered();
         job.backdrop = !no_backdrop;
+        job.samples = floats ? SampleType::float32 : SampleType::half;
         if (f_number)
             job.lens = Lens{.f_number = *f_number};
         job.render.stop.relative_error = error;

@@ -295,10 +295,13 @@ TEST(ImageFile, RefusesDamagedSpectralFiles) {
             changed.replace(at, from.size(), to);
         return folder.write("changed.exr", changed);
     };
-    auto path = replaced("key.S0.420,000nm", "key.S0.421,000nm");
+    auto path = replaced("T.420,000nm", "T.421,000nm");
     test::expect_problem([&] { read_spectral_exr(path); }, path.string(),
-                         "the channel 'key.S0.420,000nm' is missing");
-    path = replaced("tsuya-spectral-1", "tsuya-spectral-9");
+                         "the channel 'T.420,000nm' is missing");
+    path = replaced("transport.key", "transport.kei");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(),
+                         "the part 'transport.key' is missing");
+    path = replaced("tsuya-spectral-2", "tsuya-spectral-9");
     test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya-spectral-9");
     path = replaced("hat 16 ", "hat -1 ");
     test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya:basis");
@@ -458,7 +461,7 @@ TEST(ImageFile, RefusesWrongPictures) {
     test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "given with");
     image = some_transport();
     image.groups[1] = "key";
-    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "two channels");
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "two light groups");
     image.groups[1] = "";
     test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "no name");
     image = some_transport();

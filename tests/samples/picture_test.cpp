@@ -171,8 +171,10 @@ TEST(AovPicture, ShowsEachKind) {
     SpectralImage image = even_picture(0.5, 0);
     const NamedLamp d65 = parse_lamps(Texts{"D65"})[0];
     image.aov_names = {"depth", "normal", "direct", "albedo", "CryptoObject", "uv"};
-    const Texts direct = transport_channel_names("key", image.basis, false);
-    const Texts albedo = reflectance_channel_names(image.basis, false);
+    const Texts albedo = channel_names(image.basis, false);
+    Texts direct = albedo;
+    for (std::string &name : direct)
+        name.insert(0, "key.");
     image.aovs.clear();
     for (const Texts &channels : {Texts{"Z"}, Texts{"X", "Y", "Z"}, direct, albedo,
                                   Texts{"CryptoObject00.R", "CryptoObject00.G"}, Texts{"U", "V"}})

@@ -157,12 +157,8 @@ TEST(DyeVariables, AreTheColoursThatVary) {
 
 // The mean of a light group over the picture, of the dyes that are shown at a wavelength.
 double mean_at(const SpectralImage &image, std::size_t group, double nm) {
-    std::vector<double> weights;
-    if (image.depths)
-        weights = DepthWeights(*image.depths).at_nm(nm);
-    else
-        for (int k = 0; k < image.basis.count; ++k)
-            weights.push_back(image.basis.weight(k, nm));
+    const std::vector<double> weights =
+        image.depths ? DepthWeights(*image.depths).at_nm(nm) : BasisWeights(image.basis).at_nm(nm);
     double sum = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)

@@ -104,58 +104,6 @@ TEST(Spectrum, BadOnesAreRefusedWithTheirPlace) {
     EXPECT_NO_THROW(check_spectrum({{400, 500}, {0, 1}}, 0, 1, "satin.dye"));
 }
 
-TEST(SpectralBasis, HatsSumToOne) {
-    for (const int count : {1, 2, 3, 8, 16, 31}) {
-        const SpectralBasis basis{.count = count};
-        for (double nm = 350; nm < 800; nm += 0.7) {
-            double sum = 0;
-            for (int k = 0; k < count; ++k) {
-                const double w = basis.weight(k, nm);
-                EXPECT_GE(w, 0);
-                EXPECT_LE(w, 1);
-                sum += w;
-            }
-            EXPECT_NEAR(sum, 1, 1e-12) << count << " at " << nm;
-        }
-        for (int k = 0; k < count; ++k)
-            EXPECT_NEAR(basis.weight(k, basis.centre_nm(k)), 1, 1e-12);
-    }
-}
-
-TEST(SpectralBasis, ConstantsAreProjectedExactly) {
-    for (const int count : {1, 2, 16}) {
-        const SpectralBasis basis{.count = count};
-        for (const float c : project(Spectrum::constant(0.37), basis))
-            EXPECT_EQ(c, 0.37f);
-        for (const float c : project({{300, 500, 900}, {0.37, 0.37, 0.37}}, basis))
-            EXPECT_EQ(c, 0.37f);
-    }
-}
-
-TEST(SpectralBasis, ResidualIsOrthogonalToEveryHat) {
-    const SpectralBasis basis;
-    const Spectrum s{{400, 460, 475, 530, 610, 700}, {0.3, 0.5, 0.8, 0.4, 0.6, 0.5}};
-    const std::vector<float> c = project(s, basis);
-    double largest = 0;
-    for (int k = 0; k < basis.count; ++k) {
-        double product = 0;
-        for (double nm = 400; nm <= 700; ++nm) {
-            double fit = 0;
-            for (int j = 0; j < basis.count; ++j)
-                fit += c[static_cast<std::size_t>(j)] * basis.weight(j, nm);
-            product += (fit - s.at(nm)) * basis.weight(k, nm);
-            largest = std::max(largest, std::abs(fit - s.at(nm)));
-        }
-        EXPECT_NEAR(product, 0, 1e-4);
-    }
-    EXPECT_GT(largest, 1e-3) << "nothing left to be orthogonal";
-}
-
-TEST(SpectralBasis, ProjectionIsNeverNegative) {
-    const std::vector<float> c = project({{400, 500, 501, 700}, {0, 0, 1, 1}}, SpectralBasis{});
-    EXPECT_GE(*std::min_element(c.begin(), c.end()), 0);
-}
-
 TEST(Names, TheNearestIsSuggestedOnlyIfItIsNear) {
     const std::vector<std::string> known = {"theta_deg", "phi_deg", "brdf_per_sr"};
     EXPECT_EQ(nearest_name("theta_dge", known), "theta_deg");

@@ -140,12 +140,20 @@ std::string depths_data(const DyeDepths &depths) {
                                                             {"degree", json::array(degrees)}}});
 }
 
-std::string hats_data(const SpectralBasis &basis) {
-    return json::object(std::array<std::pair<std::string, std::string>, 4>{
-        {{"kind", json::text("wavelengths")},
-         {"count", std::to_string(basis.count)},
-         {"first_nm", json::number(basis.first_nm)},
-         {"last_nm", json::number(basis.last_nm)}}});
+/// The functions of the channels at the observers' wavelengths.
+std::string basis_data(const SpectralBasis &basis) {
+    const BasisWeights weights(basis);
+    std::vector<std::vector<double>> of_channels(static_cast<std::size_t>(basis.count));
+    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm) {
+        const std::vector<double> at = weights.at_nm(nm);
+        for (std::size_t k = 0; k < at.size(); ++k)
+            of_channels[k].push_back(at[k]);
+    }
+    std::vector<std::string> rows;
+    for (const std::vector<double> &channel : of_channels)
+        rows.push_back(json::numbers(channel, kDigits));
+    return json::object(std::array<std::pair<std::string, std::string>, 2>{
+        {{"kind", json::text("wavelengths")}, {"weights", json::array(rows)}}});
 }
 
 std::string group_data(const std::string &name, const PackedGroup &group) {
@@ -175,7 +183,7 @@ std::string dress_data(const PageDress &dress, const PackedPicture &packed) {
          {"height", std::to_string(dress.image.height)},
          {"groups", json::array(groups)},
          {"channels",
-          dress.image.depths ? depths_data(*dress.image.depths) : hats_data(dress.image.basis)},
+          dress.image.depths ? depths_data(*dress.image.depths) : basis_data(dress.image.basis)},
          {"error", error}}});
 }
 

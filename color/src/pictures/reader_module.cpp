@@ -10,6 +10,9 @@ class OiioReader final : public PictureReader {
     InputPicture read(const std::filesystem::path &path) const override {
         return read_picture(path);
     }
+    std::vector<InputPicture> read_parts(const std::filesystem::path &path) const override {
+        return read_picture_parts(path);
+    }
     EncodedPicture read_encoded(const std::filesystem::path &path,
                                 FloatCode floats) const override {
         return read_encoded_picture(path, floats);

@@ -7,6 +7,7 @@
 namespace tsuya {
 
 InputPicture read_picture(const std::filesystem::path &path);
+std::vector<InputPicture> read_picture_parts(const std::filesystem::path &path);
 EncodedPicture read_encoded_picture(const std::filesystem::path &path, FloatCode floats);
 EncodedPicture decode_png_bytes(std::string_view bytes, const std::string &name);
 std::unique_ptr<FrameFile> open_frame_file(const std::filesystem::path &path);

@@ -10,7 +10,10 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
@@ -83,11 +86,17 @@ Imf::Header header_of(const OutputPicture &picture) {
     for (std::size_t c = 0; c < picture.channels.size(); ++c)
         header.channels().insert(picture.channels[c],
                                  Imf::Channel(c < half_count(picture) ? Imf::HALF : Imf::FLOAT));
+    if (!picture.part.empty()) {
+        header.setName(picture.part);
+        header.setType(Imf::SCANLINEIMAGE);
+    }
+    if (picture.colours) {
+        const auto &[rx, ry, gx, gy, bx, by, wx, wy] = picture.colours->chromaticities;
+        Imf::addChromaticities(header, {{rx, ry}, {gx, gy}, {bx, by}, {wx, wy}});
+        Imf::addAdoptedNeutral(header, {picture.colours->neutral[0], picture.colours->neutral[1]});
+    }
     for (const auto &[key, value] : picture.attributes)
         header.insert(key, Imf::StringAttribute(value));
-    if (const std::vector<float> &at = picture.chromaticities; at.size() == 8)
-        Imf::addChromaticities(header,
-                               {{at[0], at[1]}, {at[2], at[3]}, {at[4], at[5]}, {at[6], at[7]}});
     return header;
 }
 
@@ -145,11 +154,8 @@ class RowBlock {
     std::vector<float> float_{};
 };
 
-void encode(const OutputPicture &picture, Bytes &bytes) {
-    // The number of the library's threads is global: of two callers at once, the later one's holds
-    const int threads = tbb::this_task_arena::max_concurrency();
-    Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
-    Imf::OutputFile file(bytes, header_of(picture), threads > 1 ? threads : 0);
+/// Writes all rows. \param file a file of one part, or one of its parts
+template <class File> void write_rows(File &file, const OutputPicture &picture) {
     RowBlock block(picture);
     const Imath::Box2i data = data_window(picture);
     for (int first = 0; first < picture.height; first += kRowsAtOnce) {
@@ -163,14 +169,36 @@ void encode(const OutputPicture &picture, Bytes &bytes) {
     }
 }
 
+void encode(std::span<const OutputPicture> parts, Bytes &bytes) {
+    // The number of the library's threads is global: of two callers at once, the later one's holds
+    const int arena = tbb::this_task_arena::max_concurrency();
+    const int threads = arena > 1 ? arena : 0;
+    Imf::setGlobalThreadCount(threads);
+    if (parts.size() == 1) {
+        Imf::OutputFile file(bytes, header_of(parts[0]), threads);
+        write_rows(file, parts[0]);
+        return;
+    }
+    std::vector<Imf::Header> headers;
+    for (const OutputPicture &part : parts)
+        headers.push_back(header_of(part));
+    Imf::MultiPartOutputFile file(bytes, headers.data(), static_cast<int>(headers.size()), false,
+                                  threads);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        Imf::OutputPart part(file, static_cast<int>(i));
+        write_rows(part, parts[i]);
+    }
+}
+
 } // namespace
 
-void write_exr_picture(const std::filesystem::path &path, const OutputPicture &picture) {
+void write_exr_parts(const std::filesystem::path &path, std::span<const OutputPicture> parts) {
     check_extension(path, ".exr");
-    check_names(picture.channels, path);
+    for (const OutputPicture &part : parts)
+        check_names(part.channels, path);
     Bytes bytes(path.c_str());
     try {
-        encode(picture, bytes);
+        encode(parts, bytes);
     } catch (const Error &) {
         throw;
     } catch (const std::bad_alloc &) {
@@ -179,6 +207,10 @@ void write_exr_picture(const std::filesystem::path &path, const OutputPicture &p
         fail_encoding(path, error.what());
     }
     write_file(path, bytes.data());
+}
+
+void write_exr_picture(const std::filesystem::path &path, const OutputPicture &picture) {
+    write_exr_parts(path, {&picture, 1});
 }
 
 } // namespace tsuya

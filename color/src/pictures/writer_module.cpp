@@ -11,6 +11,10 @@ class Writer final : public PictureWriter {
     void write_exr(const std::filesystem::path &path, const OutputPicture &picture) const override {
         write_exr_picture(path, picture);
     }
+    void write_exr_parts(const std::filesystem::path &path,
+                         std::span<const OutputPicture> parts) const override {
+        tsuya::write_exr_parts(path, parts);
+    }
     void write_png(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
                    const void *samples) const override {
         write_png_samples(path, shape, file, samples);

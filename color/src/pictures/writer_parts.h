@@ -7,6 +7,7 @@
 namespace tsuya {
 
 void write_exr_picture(const std::filesystem::path &path, const OutputPicture &picture);
+void write_exr_parts(const std::filesystem::path &path, std::span<const OutputPicture> parts);
 void write_png_samples(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
                        const void *samples);
 std::string deflate_bytes(std::string_view bytes);

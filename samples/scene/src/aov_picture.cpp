@@ -111,13 +111,12 @@ Image aov_picture(const SpectralImage &transport, std::size_t number, const Name
                      "expected a number below " + std::to_string(transport.aovs.size())});
     const Image &aov = transport.aovs[number];
     const auto spectral = static_cast<std::size_t>(transport.basis.count);
-    const bool at_depths = transport.depths.has_value();
+    const std::vector<std::string> names =
+        channel_names(transport.basis, transport.depths.has_value());
     if (aov.channels.size() == spectral * transport.groups.size() &&
-        aov.channels.front() ==
-            transport_channel_names(transport.groups.front(), transport.basis, at_depths).front())
+        aov.channels.front() == transport.groups.front() + '.' + names.front())
         return picture_under(as_transport(transport, aov, transport.groups), {&lamp, 1}, look);
-    if (aov.channels.size() == spectral &&
-        aov.channels == reflectance_channel_names(transport.basis, at_depths))
+    if (aov.channels == names)
         return picture_under(as_transport(transport, aov, {"light"}), {&lamp, 1}, look);
     if (transport.aov_names[number].starts_with("Crypto"))
         return picture_of_ids(aov);

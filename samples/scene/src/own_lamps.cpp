@@ -106,6 +106,18 @@ Lighting lighting_of_picture(const SpectralImage &image, std::span<const NamedLa
     return lighting;
 }
 
+void write_transport(const std::filesystem::path &path, const SpectralImage &image,
+                     SampleType samples) {
+    const bool all =
+        std::all_of(image.groups.begin(), image.groups.end(), [&](const std::string &group) {
+            return image.metadata.count(key_of(group)) > 0;
+        });
+    SpectralExrOptions options{.samples = samples};
+    if (all)
+        options.lamps = own_lamps(image);
+    write_spectral_exr(path, image, options);
+}
+
 void check_picture_lamps(std::span<const std::string> specs) {
     const std::vector<std::string> rest = others(specs);
     if (!rest.empty() || specs.empty())

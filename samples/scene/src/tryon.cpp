@@ -224,8 +224,8 @@ void write_videos(const std::vector<TryOnDye> &dyes, const std::vector<NamedLamp
 }
 
 // Those of the fabrics are the same in every render.
-void add_warnings(const RenderResult &rendered, TryOnResult &result) {
-    for (const Problem &warning : rendered.warnings)
+void add_warnings(const std::vector<Problem> &warnings, TryOnResult &result) {
+    for (const Problem &warning : warnings)
         if (std::none_of(result.warnings.begin(), result.warnings.end(), [&](const Problem &known) {
                 return known.what == warning.what && known.where == warning.where;
             }))
@@ -311,12 +311,13 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
             RenderResult rendered = render_try_on(scene, settings, part, &prepared);
             result.stats.push_back(rendered.stats);
             result.interrupted = rendered.stats.interrupted;
-            add_warnings(rendered, result);
+            add_warnings(rendered.warnings, result);
             note_own_lamps(rendered.image, stage.shown.own_lamps);
             image = std::move(rendered.image);
             if (!result.interrupted && !key.empty())
                 image.metadata["render_key"] = key;
         }
+        round_as_written(image, job.samples);
         if (job.page && frames == 1)
             dresses.push_back({open ? job.garment.stem().string() : dyes[first].name, image});
         for (std::size_t d = first; d < first + at_once; ++d) {

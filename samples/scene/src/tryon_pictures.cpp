@@ -4,6 +4,7 @@
 
 #include "tryon_files.h"
 #include "tsuya/color/image_file.h"
+#include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/picture.h"
 
 namespace tsuya::scene {
@@ -20,7 +21,7 @@ void TryOnPictures::add(const SpectralImage &image, const std::string &dye,
                         const std::string &number) {
     const Waiting render{dye, number};
     result_.files.push_back(transport(render));
-    write_spectral_exr(result_.files.back(), image);
+    write_transport(result_.files.back(), image, job_.samples);
     if (!job_.metered)
         return write_pictures(image, render);
     for (const NamedLamp &lamp : lamps_)

@@ -85,14 +85,14 @@ std::vector<std::string> channels_of(Aov aov, const Scene &scene, int channels) 
     case Aov::garment:
         return {"A"};
     case Aov::albedo:
-        return reflectance_channel_names(basis, at_depths);
+        return channel_names(basis, at_depths);
     case Aov::direct:
     case Aov::indirect:
     case Aov::surface:
     case Aov::body:
         for (const std::string &group : scene.light_groups)
-            for (std::string &name : transport_channel_names(group, basis, at_depths))
-                names.push_back(std::move(name));
+            for (const std::string &name : channel_names(basis, at_depths))
+                names.push_back(group + '.' + name);
         return names;
     case Aov::object_ids:
     case Aov::fabric_ids:

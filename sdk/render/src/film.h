@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -125,6 +126,10 @@ struct Film {
 
 // What must be the same for a render to go on: hashes of scene and settings.
 detail::Fingerprint fingerprint(const Scene &scene, const RenderSettings &settings);
+
+// Of each fabric of the scene, 16 hexadecimal digits that change where the fabric does, by keys for
+// the metadata of a picture.
+std::map<std::string, std::string> fabric_hashes(const Scene &scene);
 
 // The render_key of what has that fingerprint.
 std::string render_key(const detail::Fingerprint &fingerprint, const StopRule &stop);

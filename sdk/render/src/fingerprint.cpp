@@ -15,6 +15,19 @@ detail::Fingerprint fingerprint(const Scene &scene, const RenderSettings &settin
     return {.input = of_scene.result(), .settings = of_settings.result()};
 }
 
+std::map<std::string, std::string> fabric_hashes(const Scene &scene) {
+    std::map<std::string, std::string> hashes;
+    for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
+        detail::FieldHasher of_fabric;
+        of_fabric.add(scene.fabrics[i]);
+        std::array<char, 17> digits{};
+        std::snprintf(digits.data(), digits.size(), "%016" PRIx64, of_fabric.result());
+        const std::string &name = scene.fabrics[i].name;
+        hashes["hash of fabric " + (name.empty() ? std::to_string(i) : name)] = digits.data();
+    }
+    return hashes;
+}
+
 std::string render_key(const detail::Fingerprint &fingerprint, const StopRule &stop) {
     detail::Hasher of_stop;
     of_stop.value(stop.samples_per_pixel);

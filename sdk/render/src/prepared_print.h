@@ -9,7 +9,7 @@
 #include "cloth_place.h"
 #include "mip_texture.h"
 #include "tsuya/sdk/print.h"
-#include "tsuya/sdk/spectrum.h"
+#include "tsuya/sdk/spectral_basis.h"
 
 namespace tsuya {
 

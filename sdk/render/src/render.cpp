@@ -112,6 +112,8 @@ RenderResult result_of(const Film &film, const Scene &scene, const RenderSetting
     if (stats.widening_change)
         result.image.metadata["widening_change"] = std::to_string(*stats.widening_change);
     result.image.metadata["seed"] = std::to_string(settings.seed);
+    result.image.metadata["max_bounces"] = std::to_string(settings.max_bounces);
+    result.image.metadata.merge(fabric_hashes(scene));
     if (film.not_finite > 0)
         result.warnings.push_back({std::to_string(film.not_finite) + " of " +
                                        detail::counted(film.samples(), "sample") +

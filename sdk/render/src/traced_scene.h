@@ -22,7 +22,7 @@
 #include "tsuya/sdk/prepared_scene.h"
 #include "tsuya/sdk/progress.h"
 #include "tsuya/sdk/scene.h"
-#include "tsuya/sdk/spectrum.h"
+#include "tsuya/sdk/spectral_basis.h"
 
 namespace tsuya {
 

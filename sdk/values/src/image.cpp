@@ -17,16 +17,6 @@ std::string wavelength_text(double wavelength_nm) {
     return text + "nm";
 }
 
-std::vector<std::string> channel_names(const std::string &layer, const SpectralBasis &basis,
-                                       bool at_depths) {
-    std::vector<std::string> names;
-    for (int k = 0; k < basis.count; ++k)
-        names.push_back(layer + '.' +
-                        (at_depths ? std::string("depth.") + (k < 10 ? "0" : "") + std::to_string(k)
-                                   : wavelength_text(basis.centre_nm(k))));
-    return names;
-}
-
 } // namespace
 
 Image Image::make(int width, int height, std::vector<std::string> channels) {
@@ -44,17 +34,13 @@ SpectralImage SpectralImage::make(int width, int height, SpectralBasis basis,
     return image;
 }
 
-std::string spectral_channel_name(const std::string &group, double wavelength_nm) {
-    return group + ".S0." + wavelength_text(wavelength_nm);
-}
-
-std::vector<std::string> transport_channel_names(const std::string &group,
-                                                 const SpectralBasis &basis, bool at_depths) {
-    return channel_names(group + (at_depths ? "" : ".S0"), basis, at_depths);
-}
-
-std::vector<std::string> reflectance_channel_names(const SpectralBasis &basis, bool at_depths) {
-    return channel_names("T", basis, at_depths);
+std::vector<std::string> channel_names(const SpectralBasis &basis, bool at_depths, bool emissive) {
+    std::vector<std::string> names;
+    for (int k = 0; k < basis.count; ++k)
+        names.push_back((emissive ? "S0." : "T.") +
+                        (at_depths ? std::string("depth.") + (k < 10 ? "0" : "") + std::to_string(k)
+                                   : wavelength_text(basis.centre_nm(k))));
+    return names;
 }
 
 } // namespace tsuya

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
-
 #include "tsuya/sdk/detail/counted.h"
 #include "tsuya/sdk/error.h"
 
@@ -45,40 +43,6 @@ void check_spectrum(const Spectrum &s, double low, double high, const std::strin
                 {"the value at " + at + " is " + std::to_string(s.value[i]), where,
                  "expected a number from " + std::to_string(low) + " to " + std::to_string(high)});
     }
-}
-
-double SpectralBasis::centre_nm(int channel) const {
-    return count < 2 ? 0.5 * (first_nm + last_nm)
-                     : first_nm + (last_nm - first_nm) * channel / (count - 1);
-}
-
-double SpectralBasis::weight(int channel, double nm) const {
-    if (count < 2)
-        return 1.0;
-    const double position =
-        std::clamp((nm - first_nm) / (last_nm - first_nm), 0.0, 1.0) * (count - 1);
-    return std::max(0.0, 1.0 - std::abs(position - channel));
-}
-
-std::vector<float> project(const Spectrum &spectrum, const SpectralBasis &basis) {
-    std::vector<float> coefficients(static_cast<std::size_t>(basis.count));
-    if (spectrum.is_constant()) {
-        std::fill(coefficients.begin(), coefficients.end(), static_cast<float>(spectrum.value[0]));
-        return coefficients;
-    }
-    const auto samples = static_cast<Eigen::Index>(std::lround(basis.last_nm - basis.first_nm)) + 1;
-    Eigen::MatrixXd hats(samples, basis.count);
-    Eigen::VectorXd values(samples);
-    for (Eigen::Index i = 0; i < samples; ++i) {
-        const double nm = basis.first_nm + static_cast<double>(i);
-        values[i] = spectrum.at(nm);
-        for (int k = 0; k < basis.count; ++k)
-            hats(i, k) = basis.weight(k, nm);
-    }
-    const Eigen::VectorXd fit = (hats.transpose() * hats).ldlt().solve(hats.transpose() * values);
-    for (int k = 0; k < basis.count; ++k)
-        coefficients[static_cast<std::size_t>(k)] = static_cast<float>(std::max(0.0, fit[k]));
-    return coefficients;
 }
 
 } // namespace tsuya

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tsuya/color/lamp.h"
 #include "tsuya/color/rgb_primaries.h"
 #include "tsuya/sdk/image.h"
 #include "tsuya/sdk/spectral_image.h"
@@ -72,21 +73,40 @@ struct ExrOptions {
 void write_exr(const std::filesystem::path &path, const Image &image,
                const ExrOptions &options = {});
 
-/// Writes light transport as a spectral EXR in the layout of [Fichet]: a channel of the group `key`
-/// is named after its centre with a decimal comma, e.g. `key.S0.400,000nm`; AOVs are layers, e.g.
-/// `aov.normal.X`, but those of Cryptomatte, whose channels and metadata `cryptomatte/...` have
-/// their own names. Alpha is the channel `A`, by which colours are multiplied (associated alpha).
-/// AOVs are always float32. The file has the data window of the picture in the display window of
-/// the whole. Attributes: `tsuya:schema`, `tsuya:basis`, `tsuya:group.<i>`,
-/// `tsuya:aov.<i>`, `tsuya:alpha`, and the metadata as `tsuya:meta:<key>` (an
-/// entry without a value is left out). Throws Error at the path, also for
-/// sizes that do not agree and names that are empty or used twice.
-void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &image,
-                        SampleType samples = SampleType::float32);
+/// What write_spectral_exr writes beside the picture.
+struct SpectralExrOptions {
+    /// Of transport and alpha. Halves where they can hold it: a picture whose values end above
+    /// 65504, or whose light group ends below 1/1024, is written in floats all the same.
+    SampleType samples = SampleType::half;
+    /// Lamps of the picture R, G, B that other programs show: one for all light groups, or one for
+    /// each, with their factors; the neutral is that of the first. Empty: D65, or E for radiance.
+    std::vector<NamedLamp> lamps{};
+};
 
-/// Reads what write_spectral_exr wrote, the whole picture with 0 outside of its data window; floats
-/// are exact. Throws Error at the path: no such file,
-/// no EXR, none of ours, a channel that is missing, cut short.
+/// Writes light transport as an EXR of several parts in the layout of [Fichet]. The first part,
+/// `rgb`, is the picture under a lamp in halves, linear with the primaries of Rec. 709, and alpha
+/// as `A`, by which colours are multiplied (associated alpha). Each light group is a part
+/// `transport.GROUP` with a channel for each centre, named with a decimal comma: `T.400,000nm`; or
+/// `T.depth.00`, see DyeDepths. Each AOV is a part `aov.NAME` of float32, its channels named as
+/// they are. All parts have the data window of the picture in the display window of the whole. The
+/// attributes of the first part say the rest: `tsuya:schema`, `tsuya:basis`, `tsuya:group.<i>`,
+/// `tsuya:aov.<i>`, `tsuya:alpha`, `tsuya:rgb.lamp`, the metadata as `tsuya:meta:<key>` (an entry
+/// without a value is left out), and `cryptomatte/...`. Equal pictures are equal bytes. Throws
+/// Error at the path, also for sizes that do not agree and names that are empty or used twice.
+void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &image,
+                        const SpectralExrOptions &options = {});
+
+/// Rounds transport and alpha to what a file of these samples has, so that pictures that are made
+/// of them are those that are made of the file.
+void round_as_written(SpectralImage &image, SampleType samples);
+
+/// Reads what write_spectral_exr wrote, in this layout or its first (all in one part), the whole
+/// picture with 0 outside of its data window; floats are exact. Also reads spectral EXRs of other
+/// programs in the layout of [Fichet]: reflectances (T) as transport, or radiance (S0), see
+/// SpectralImage::emissive; each layer or part that has them is a light group, their wavelengths
+/// are samples. Other channels of such a file are left out, those of polarised light too. Throws
+/// Error at the path: no such file, no EXR, no spectral one, a channel that is missing, layers of
+/// different wavelengths or sizes, both radiance and reflectance, fluorescence, cut short.
 SpectralImage read_spectral_exr(const std::filesystem::path &path);
 
 } // namespace tsuya

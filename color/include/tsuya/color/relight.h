@@ -12,8 +12,8 @@
 #include "tsuya/color/observer.h"
 #include "tsuya/sdk/dye_depths.h"
 #include "tsuya/sdk/image.h"
+#include "tsuya/sdk/spectral_basis.h"
 #include "tsuya/sdk/spectral_image.h"
-#include "tsuya/sdk/spectrum.h"
 
 namespace tsuya {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tsuya/color/image_file.h"
 #include "tsuya/color/lamp.h"
 #include "tsuya/color/relight.h"
 #include "tsuya/sdk/spectral_image.h"
@@ -31,6 +32,10 @@ Lighting lighting_of_picture(const SpectralImage &image, std::span<const NamedLa
 /// The lamps with those of the groups' own in the place of `own`, each name once: a page lights by
 /// spectra. Throws Error as own_lamps.
 std::vector<NamedLamp> page_lamps(const SpectralImage &image, const std::vector<NamedLamp> &lamps);
+/// Writes a spectral EXR whose picture for other programs is under the lamps of the groups' own
+/// where all have one, else under D65. Throws Error as write_spectral_exr.
+void write_transport(const std::filesystem::path &path, const SpectralImage &image,
+                     SampleType samples = SampleType::half);
 
 /// As parse_lamps, where `own` is one of them as well: a lamp of that name, without a spectrum, as
 /// picture_under takes it.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tsuya/color/config.h"
+#include "tsuya/color/image_file.h"
 #include "tsuya/garment/garment.h"
 #include "tsuya/garment/report.h"
 #include "tsuya/garment/seams.h"
@@ -93,7 +94,8 @@ struct TryOn {
     /// false: nothing stands behind garment and body, and the pictures have alpha, see
     /// RenderSettings::alpha
     bool backdrop = true;
-    std::filesystem::path output{}; ///< a folder; made where it is missing
+    std::filesystem::path output{};        ///< a folder; made where it is missing
+    SampleType samples = SampleType::half; ///< of the light transport in files
     /// Keeps renders in it that are complete and of the same scene and settings; their pictures are
     /// written again.
     bool resume = false;

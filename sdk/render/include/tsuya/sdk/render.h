@@ -89,7 +89,7 @@ struct RenderSettings {
 /// - uv (U, V): place on the cloth, metres
 /// - albedo (T.400,000nm, ...): share of light that the dyed part reflects, without the surface of
 ///   its fibres
-/// - direct, indirect (key.S0.400,000nm, ...): transport straight from lights to what the camera
+/// - direct, indirect (key.T.400,000nm, ...): transport straight from lights to what the camera
 ///   sees, and all other; together the transport
 /// - surface, body (the same): transport to the camera by the surface of the fibres, and by their
 ///   dyed part and through the cloth; together the transport

@@ -11,7 +11,7 @@
 
 #include "tsuya/sdk/dye_depths.h"
 #include "tsuya/sdk/image.h"
-#include "tsuya/sdk/spectrum.h"
+#include "tsuya/sdk/spectral_basis.h"
 
 namespace tsuya {
 
@@ -25,6 +25,9 @@ struct SpectralImage {
     /// Where it is set, the channels are depths of dye and not the functions of `basis`, whose
     /// count is theirs: sum_k T_k w_k(lambda), w the DepthWeights at the dyes' reflectances there.
     std::optional<DyeDepths> depths{};
+    /// The channels are radiance, with the light of a lamp in it, and no transport: pictures of
+    /// other programs. Only the lamp E, which leaves it as it is, makes a picture of it.
+    bool emissive = false;
     std::vector<std::string> groups{}; ///< light group names
     std::vector<float> transport{};    ///< [group][y][x][k]
     std::vector<Image> aovs{};         ///< arbitrary output variables, see aov_names
@@ -55,15 +58,9 @@ struct SpectralImage {
     }
 };
 
-/// The name of a spectral channel of a light group, e.g. `key.S0.400,000nm`. [Fichet]
-std::string spectral_channel_name(const std::string &group, double wavelength_nm);
-
-/// Names of the channels of a light group: spectral ones, or such as `key.depth.07` where they are
-/// depths of dye.
-std::vector<std::string> transport_channel_names(const std::string &group,
-                                                 const SpectralBasis &basis, bool at_depths);
-
-/// The same of a reflectance: `T.400,000nm` [Fichet], or `T.depth.07`.
-std::vector<std::string> reflectance_channel_names(const SpectralBasis &basis, bool at_depths);
+/// The name of a channel: `T.400,000nm`, as [Fichet] names reflectances, or `T.depth.07` where they
+/// are depths of dye. A picture of radiance has `S0.400,000nm`.
+std::vector<std::string> channel_names(const SpectralBasis &basis, bool at_depths,
+                                       bool emissive = false);
 
 } // namespace tsuya
