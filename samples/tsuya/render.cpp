@@ -11,6 +11,7 @@
 #include "render_plan.h"
 #include "same_file.h"
 #include "tsuya/color/image_file.h"
+#include "tsuya/scene/channel_warnings.h"
 #include "tsuya/scene/exposure.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/own_lamps.h"
@@ -142,6 +143,8 @@ struct Render final : Command {
         console.warnings(file.warnings);
         load_ = of_load.end("load");
         own_lamps_ = built.own_lamps;
+        for (const Problem &warning : scene::channel_warnings(built.scene, settings))
+            console.warning(warning);
         if (explains) {
             std::cout << plan_text(file, built, settings, json);
             return kDone;

@@ -36,7 +36,7 @@ std::vector<Spectrum> reflectances() {
 // CIEDE2000 of K channels against integration at 1 nm, over all dyes and lamps. The transport of
 // two meetings is the product of channels, as the path tracer has it.
 std::vector<double> color_errors(int channels) {
-    const SpectralBasis basis{.count = channels};
+    const SpectralBasis basis = SpectralBasis::of_renders(channels);
     std::vector<double> errors;
     const std::vector<Spectrum> spectra = reflectances();
     for (const std::string &name : lamp_names()) {

@@ -16,6 +16,7 @@
 #include "tsuya/color/image_file.h"
 #include "tsuya/garment/animation.h"
 #include "tsuya/garment/garment.h"
+#include "tsuya/scene/channel_warnings.h"
 #include "tsuya/scene/data_folder.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/own_lamps.h"
@@ -302,6 +303,7 @@ TryOnResult run(const TryOn &job, const Progress &progress) {
             stage.show(job, frame);
         if (dyes[first].spectrum)
             scene.fabrics[0].colours.dye_all(*dyes[first].spectrum);
+        add_warnings(channel_warnings(scene, settings), result);
         const std::string number = frames > 1 ? frame_suffix(frame) : "";
         const std::string key = frames > 1 || job.resume ? render_key(scene, settings) : "";
         SpectralImage image;

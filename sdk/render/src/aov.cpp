@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cryptomatte.h"
+#include "dye_channels.h"
 #include "tsuya/sdk/plan.h"
 
 namespace tsuya {
@@ -66,8 +67,11 @@ std::vector<Aov> aovs_of(const RenderSettings &settings) {
 }
 
 std::vector<std::string> channels_of(Aov aov, const Scene &scene, int channels) {
-    const SpectralBasis basis{.count = channels};
-    const bool at_depths = !scene.open_dyes.empty() && !dye_variables(scene).empty();
+    std::vector<DyeVariable> dyes;
+    if (!scene.open_dyes.empty())
+        dyes = dye_variables(scene);
+    const SpectralBasis basis = basis_of(dyes, channels);
+    const bool at_depths = !dyes.empty();
     std::vector<std::string> names;
     switch (aov) {
     case Aov::normal:

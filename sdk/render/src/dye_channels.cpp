@@ -122,6 +122,10 @@ std::optional<DyeDepths> depths_of(std::vector<DyeVariable> dyes,
     return make_dye_depths(std::move(dyes), channels);
 }
 
+SpectralBasis basis_of(const std::vector<DyeVariable> &dyes, int channels) {
+    return dyes.empty() ? SpectralBasis::of_renders(channels) : SpectralBasis{.count = channels};
+}
+
 RenderSettings as_planned(const Scene &scene, RenderSettings settings) {
     settings.channels = plan(scene, settings).channels;
     return settings;

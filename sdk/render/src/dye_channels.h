@@ -32,6 +32,9 @@ int depth_channels(const std::vector<DyeVariable> &dyes);
 std::optional<DyeDepths> depths_of(std::vector<DyeVariable> dyes,
                                    const std::array<double, kMostDyes> &most_dye, int channels);
 
+// What the channels of a render are where they are wavelengths. \param dyes of its plan
+SpectralBasis basis_of(const std::vector<DyeVariable> &dyes, int channels);
+
 // With the number of channels that the plan chooses.
 RenderSettings as_planned(const Scene &scene, RenderSettings settings);
 

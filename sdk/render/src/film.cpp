@@ -8,6 +8,7 @@
 #include <string>
 
 #include "denoise_guide.h"
+#include "dye_channels.h"
 #include "film_aovs.h"
 
 namespace tsuya {
@@ -223,8 +224,8 @@ std::int32_t Film::samples_at(int x, int y) const {
 }
 
 SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) const {
-    SpectralImage image =
-        SpectralImage::make(width, height, {.count = channels}, scene.light_groups);
+    SpectralImage image = SpectralImage::make(
+        width, height, basis_of(plan(scene, settings).dyes, channels), scene.light_groups);
     image.data_window = settings.crop;
     if (settings.alpha)
         image.alpha = Image::make(width, height, {"A"});

@@ -143,7 +143,8 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
     FilmKeeper keeper(scene, settings, film, result_so_far);
     try {
         progress("prepare", 0);
-        const TracedScene traced(scene, plan(scene, settings), {.count = settings.channels},
+        const Plan planned = plan(scene, settings);
+        const TracedScene traced(scene, planned, basis_of(planned.dyes, settings.channels),
                                  prepared, kept != nullptr, progress);
         build_seconds = seconds_since(start);
         film.most_dye = traced.most_dye;
