@@ -13,6 +13,7 @@
 #include "tsuya/color/dye.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/live_page.h"
+#include "tsuya/color/palette.h"
 #include "tsuya/color/sheet.h"
 #include "tsuya/scene/compare_sheet.h"
 #include "tsuya/scene/exposure.h"
@@ -78,7 +79,7 @@ struct Compare final : Command {
         o.option(
              "--dyes", &dyes, "A,B,...",
              "dyes in place of one that was left open, a row of the sheet each: names of `tsuya "
-             "list dyes`, #rrggbb, F.csv")
+             "list dyes`, #rrggbb, F.csv, or F.csv:* for all that are in a file")
             .with_commas()
             .check([this] { scene::check_dyes(dyes); });
         add_column(o, column);
@@ -116,6 +117,8 @@ struct Compare final : Command {
             if (!file.empty())
                 scene::check_output_file(file);
         look.check();
+        dyes = expand_palettes(dyes);
+        scene::check_dyes(dyes);
         std::vector<DyedDifferences> differences;
         std::string page;
         ColorReport colours;

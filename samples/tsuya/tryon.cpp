@@ -7,6 +7,7 @@
 #include "grain_option.h"
 #include "look_options.h"
 #include "same_file.h"
+#include "tsuya/color/palette.h"
 #include "tsuya/color/spectrum_file.h"
 #include "tsuya/scene/output_file.h"
 #include "tsuya/scene/own_lamps.h"
@@ -114,8 +115,8 @@ struct TryOn final : Command {
             .needs(pattern);
         dye = &o.option("--dye", &job.dyes, "A,B,...",
                         "dyes, which share one render where no print or third colour stands beside "
-                        "them: names of `tsuya list dyes`, #rrggbb, files of spectra; where "
-                        "none is given, a dyed fabric has its own")
+                        "them: names of `tsuya list dyes`, #rrggbb, files of spectra, F.csv:* "
+                        "for all that are in one; where none is given, a dyed fabric has its own")
                    .with_commas()
                    .check([this] { scene::check_dyes(job.dyes); });
         lamps = &o.option("--lamps", &job.lamps, "A,B,...",
@@ -190,6 +191,7 @@ struct TryOn final : Command {
             job.garment = garment;
         }
         cloth.fill(job);
+        job.dyes = expand_palettes(job.dyes);
         if (!dye->given && !job.pattern.empty())
             job.dyes = {"white"};
         else
