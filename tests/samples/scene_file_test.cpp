@@ -333,9 +333,9 @@ TEST(SceneFile, LightsAreNamedAsInTheFile) {
         read(scratch, small_scene("[lights.\"far away\"]\ncentre = [9e5, 0, 0]\nradiance = 0\n"));
     ASSERT_EQ(file.lights.size(), 2u);
     EXPECT_EQ(name_of(file.lights[1]), "far away");
-    EXPECT_NE(explain(plan(build_scene(file).scene, file.render))
-                  .find("skipped: the light 'far away' is dark"),
-              std::string::npos);
+    EXPECT_NE(
+        explain(plan(build_scene(file).scene, file.render)).find("off  dark lights: 'far away'"),
+        std::string::npos);
     SceneFile wrong = file;
     auto &light = std::get<RectangleLight>(wrong.lights[1]);
     light.radiance = -1;

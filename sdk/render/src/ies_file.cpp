@@ -85,12 +85,14 @@ class IesReader {
         number("input watts");
         IntensityProfile profile;
         profile.vertical = angles(verticals, "vertical angle");
+        if (type == kTypeC)
+            check_vertical(profile.vertical);
+        else
+            check_ahead(profile.vertical, "vertical");
         profile.horizontal = angles(horizontals, "horizontal angle");
         if (type == kTypeC) {
-            check_vertical(profile.vertical);
             turn_horizontal(profile.horizontal);
         } else {
-            check_ahead(profile.vertical, "vertical");
             check_ahead(profile.horizontal, "horizontal");
             if (horizontals < 2 || profile.horizontal.front() > 0)
                 refuse("the horizontal angles do not reach from 0 to the right",
