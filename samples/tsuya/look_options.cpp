@@ -1,5 +1,6 @@
 #include "look_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -21,21 +22,29 @@ void LookOptions::add_to(Options &options, bool with_display) {
                           "chromatic adaptation from the lamp to the display's white")
                   .one_of(adaptation_names());
     options.option("--degree", &degree, "D", "degree of adaptation: 0 none, 1 full").range(0, 1);
-    view_ =
-        &options.option("--view", &view, "NAME",
-                        "display view, see `tsuya list views`; of the config where one is used");
+    view_ = &options
+                 .option("--view", &view, "NAME",
+                         "display view, see `tsuya list views`; of the config where one is used")
+                 .check([this] {
+                     DisplayOptions shown = look();
+                     const std::vector<std::string> known = display_names();
+                     if (std::find(known.begin(), known.end(), display) == known.end())
+                         shown.display = known.front(); // told at --display
+                     if (shown.config.empty())
+                         check_display_options(shown);
+                 });
     if (with_display)
-        display_ = &options.option("--display", &display, "NAME",
-                                   "display: sRGB, Display P3, Rec.709, Rec.2020, Rec.2100-PQ, "
-                                   "Rec.2100-HLG; of the config where one is used");
-    options
-        .option("--ocio", &ocio, "FILE.ocio",
-                "OpenColorIO config in the place of the program's own, also without this option "
-                "where $OCIO names one; none: the program's own")
-        .check([this] {
-            if (config().empty())
-                check_display_options(look());
-        });
+        display_ = &options
+                        .option("--display", &display, "NAME",
+                                "display, see `tsuya list displays`; of the config where one is "
+                                "used")
+                        .check([this] {
+                            if (config().empty())
+                                display_description(display);
+                        });
+    options.option("--ocio", &ocio, "FILE.ocio",
+                   "OpenColorIO config in the place of the program's own, also without this option "
+                   "where $OCIO names one; none: the program's own");
     options
         .option("--exposure", &exposure, "STOPS",
                 "exposure, -20 to 20 stops, of which each doubles the light; or metered: one for "
