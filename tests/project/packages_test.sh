@@ -19,11 +19,14 @@ declare -A package=(
     [gphoto2]=gphoto2
     [make]=make
     [mke2fs]=e2fsprogs
+    [ociocheck]=opencolorio-tools
+    [oiiotool]=openimageio-tools
     [qemu-system-x86_64]=qemu-system-x86
     [xz]=xz-utils
 )
-# Of Debian itself; ccache is used where it is there, and nothing is skipped without it
-known=' apt-get apt-cache dpkg-deb ccache '
+# Of Debian itself; ccache is used where it is there, and nothing is skipped without it; the benchmark
+# that needs blender says how to install it
+known=' apt-get apt-cache dpkg-deb ccache blender '
 
 words() {
     sed -n '/^packages=(/,/^esac/p' samples/install-packages | sed 's/#.*//' | tr -s ' ()+=' '\n'

@@ -23,7 +23,7 @@ struct ClothWeave {
     Irregularity irregularity{};
     WeaveMap map{};
 
-    bool has_map() const { return !map.place.empty(); }
+    bool has_map() const { return !map.place.empty(); } ///< it was read
     bool operator==(const ClothWeave &) const = default;
 };
 

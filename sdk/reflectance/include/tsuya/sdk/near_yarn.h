@@ -75,7 +75,7 @@ class NearYarn {
     double crowding(std::size_t axis) const;
     /// Size of the cloth after which all begins again but slubs, metres.
     glm::dvec2 period() const { return threads_.period(); }
-    std::size_t bytes() const;
+    std::size_t bytes() const; ///< of memory
 
   private:
     static constexpr int kSlopes = NearPlace::kSlopes;

@@ -109,8 +109,8 @@ struct RayCounts {
     std::uint64_t shadow = 0; ///< what keeps light from cloth
     std::uint64_t bounce = 0; ///< what light comes from to cloth
 
-    std::uint64_t all() const { return camera + shadow + bounce; }
-    RayCounts &operator+=(const RayCounts &other) {
+    std::uint64_t all() const { return camera + shadow + bounce; } ///< the sum
+    RayCounts &operator+=(const RayCounts &other) {                ///< adds kind by kind
         camera += other.camera;
         shadow += other.shadow;
         bounce += other.bounce;

@@ -47,7 +47,7 @@ struct SpectralBasis {
 /// The functions of a basis.
 class BasisWeights {
   public:
-    explicit BasisWeights(SpectralBasis basis);
+    explicit BasisWeights(SpectralBasis basis); ///< of this basis
 
     /// One weight a channel; they sum to 1.
     std::vector<double> at_nm(double wavelength_nm) const;
