@@ -122,6 +122,8 @@ TEST(IntensityProfile, IsRefusedAtItsLine) {
          "vertical angles go from 0 to 95"},
         {with("0 45 90\n0 90", "0 45 90\n30 90").replace(good.find("2 1 2 0"), 3, "2 3"), ":8",
          "do not reach"},
+        {with("0 45 90\n0 90", "0 45 90\n-90 0").replace(good.find("2 1 2 0"), 3, "2 2"), ":8",
+         "do not reach"},
         {with("0 45 90", "0 45 45"), ":7", "no larger"},
         {with("0 45 90", "0 45 190"), ":7", "190"},
         {with("0 90\n", "0 80\n"), ":8", "80"},

@@ -131,6 +131,20 @@ TEST(NearCloth, LiesAsItIsCut) {
                                             "##..");
 }
 
+TEST(NearCloth, IsFarWhereUvsSpanNoArea) {
+    Scene scene = sheet(woven(drawn(0.5, 2,
+                                    "xo"
+                                    "ox")),
+                        4);
+    const double near = mean_of(picture(scene, 16));
+    for (glm::vec2 &uv : scene.surfaces[0].uv)
+        uv = {0.1, 0.1};
+    const SpectralImage pointed = picture(scene, 16);
+    scene.fabrics[0].weave.reset();
+    EXPECT_EQ(pointed.transport, picture(scene, 16).transport);
+    EXPECT_NE(near, mean_of(pointed));
+}
+
 TEST(NearCloth, IsPlanned) {
     Scene scene = sheet(woven(drawn(1e-3, 2,
                                     "xo"
@@ -147,7 +161,9 @@ TEST(NearCloth, IsPlanned) {
         << explain(planned);
     scene.camera.orthographic_height = 1;
     EXPECT_NE(explain(plan(scene, quick(4))).find("is seen from far alone"), std::string::npos);
-    scene.fabrics[0].weave.reset();
+    scene.fabrics[0].specular = GgxFacets{};
+    EXPECT_TRUE(plan(scene, quick(4)).near_cloths.empty()); // which shows no weave
+    scene.fabrics[0] = satin(0.3);
     EXPECT_TRUE(plan(scene, quick(4)).near_cloths.empty());
 }
 

@@ -94,7 +94,8 @@ class IesReader {
             turn_horizontal(profile.horizontal);
         } else {
             check_ahead(profile.horizontal, "horizontal");
-            if (horizontals < 2 || profile.horizontal.front() > 0)
+            if (horizontals < 2 || profile.horizontal.front() > 0 ||
+                !(profile.horizontal.back() > 0))
                 refuse("the horizontal angles do not reach from 0 to the right",
                        "expected angles from -90 or 0 to 90 degrees");
         }

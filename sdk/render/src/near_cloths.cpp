@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "tsuya/sdk/model.h"
 #include "tsuya/sdk/near_yarn.h"
 #include "tsuya/sdk/scene.h"
 
@@ -28,7 +29,8 @@ std::vector<NearCloth> near_cloths(const Scene &scene, const std::vector<bool> &
     std::vector<NearCloth> cloths;
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
         const Fabric &fabric = scene.fabrics[i];
-        if (fabrics[i] && has_specular(fabric) && fabric.weave && fabric.weave->has_map())
+        if (fabrics[i] && model_of(fabric) == "yarn" && has_specular(fabric) && fabric.weave &&
+            fabric.weave->has_map())
             cloths.push_back({fabric.name, near_within(fabric.weave->map, scene.camera)});
     }
     return cloths;

@@ -334,6 +334,19 @@ glm::vec2 TracedScene::uv_at(const Hit &hit) const {
            hit.barycentric.z * surface.uv[t.z];
 }
 
+// Whether the triangle has places of its own on the cloth: not where its UVs lie in a point or
+// line.
+bool TracedScene::spans_cloth(const Hit &hit) const {
+    constexpr float kLeast = 1e-3f; // of the triangle's area
+    const Surface &surface = surface_of(hit);
+    const glm::uvec3 t = surface.triangle[hit.triangle];
+    const glm::vec2 a = surface.uv[t.y] - surface.uv[t.x], b = surface.uv[t.z] - surface.uv[t.x];
+    const std::vector<glm::vec3> &positions = accelerator.positions(hit.object);
+    const glm::vec3 area =
+        glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]);
+    return std::abs(a.x * b.y - a.y * b.x) > kLeast * glm::length(area);
+}
+
 // The place lies along the point's frame: from behind the weft runs the other way, and on the
 // cloth's own back the systems change places.
 std::optional<NearPlace> TracedScene::near_place(const glm::vec3 &direction, const Hit &hit,
@@ -341,7 +354,7 @@ std::optional<NearPlace> TracedScene::near_place(const glm::vec3 &direction, con
     constexpr float kLeastFacing = 0.05f; // cosine by which a footprint is stretched
     const NearYarn *const near = shading[point.cloth].near();
     const Surface &surface = surface_of(hit);
-    if (!near || surface.uv.empty() || surface.warp.empty())
+    if (!near || surface.uv.empty() || surface.warp.empty() || !spans_cloth(hit))
         return std::nullopt;
     const float facing = std::max(-glm::dot(direction, point.geometric_normal), kLeastFacing);
     const float footprint = camera.pixel_width(hit.distance) / std::sqrt(facing);

@@ -86,6 +86,7 @@ struct TracedScene {
     // What the camera sees of a weave at the point; empty where its yarns are not told apart.
     std::optional<NearPlace> near_place(const glm::vec3 &direction, const Hit &hit,
                                         const SurfacePoint &point) const;
+    bool spans_cloth(const Hit &hit) const;
     // Of the cloth, metres; 0 where the surface has none.
     glm::vec2 uv_at(const Hit &hit) const;
     // Along the weft, unit; 0 where the surface has no yarns.
