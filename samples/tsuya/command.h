@@ -44,6 +44,7 @@ struct Call {
     std::unique_ptr<Command> command{}; ///< with its fields filled; null: only `text` is printed
     std::string text{};                 ///< the help or the version
     std::string progress = "auto";      ///< see parse_progress_mode
+    Options options{};                  ///< of the command, which may ask them what was given
 };
 
 /// Takes a call apart. Throws WrongCall.

@@ -112,7 +112,9 @@ class Parser {
             note_called_name(option, argc, argv);
         nodes_.front().options.fill_fields();
         node.options.fill_fields();
-        return {.command = std::move(node.command), .progress = progress_};
+        return {.command = std::move(node.command),
+                .progress = progress_,
+                .options = std::move(node.options)};
     }
 
   private:

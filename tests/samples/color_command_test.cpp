@@ -152,6 +152,21 @@ TEST(Program, ListsItsConfig) {
     EXPECT_EQ(read_file(file), run(scratch, {"list", "config"}).out);
     EXPECT_NE(read_file(file).find("HP4 cat02"), std::string::npos);
     EXPECT_EQ(run(scratch, {"list", "lamps", "-o", file}).status, 2);
+    // It makes the program's own pictures.
+    const std::string exr = (scratch / "a.exr").string(), png = (scratch / "a.png").string();
+    ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", exr}).status, 0);
+    const auto shown = [&](std::vector<std::string> more) {
+        std::vector<std::string> call{"relight", exr, "--lamp", "HP4", "-o", png, "--view", "Soft"};
+        call.insert(call.end(), more.begin(), more.end());
+        EXPECT_EQ(run(scratch, call).status, 0);
+        return read_image(png);
+    };
+    for (const char *display : {"sRGB", "Display P3"}) {
+        const Image own = shown({"--display", display}),
+                    by_file = shown({"--display", display, "--ocio", file});
+        for (std::size_t i = 0; i < own.data.size(); ++i)
+            ASSERT_NEAR(own.data[i], by_file.data[i], 1.01 / 255) << display << i;
+    }
 }
 
 TEST(Program, WritesALivePageOfSeveralPictures) {
