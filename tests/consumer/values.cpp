@@ -1,4 +1,4 @@
-#include "tsuya/sdk/spectrum.h"
+#include "tsuya/sdk/spectral_basis.h"
 
 #include <cstdio>
 
