@@ -39,8 +39,7 @@ std::vector<Spectrum> colours_of(const FabricColours &colours) {
 
 std::vector<Problem> channel_warnings(const Scene &scene, const RenderSettings &settings) {
     std::vector<Problem> warnings;
-    const Plan planned = plan(scene, settings);
-    if (!planned.dyes.empty())
+    if (!scene.open_dyes.empty() && !dye_variables(scene).empty())
         return warnings;
     const SpectralBasis basis = SpectralBasis::of_renders(settings.channels);
     const auto judge = [&](const Spectrum &colour, const std::string &where) {

@@ -14,7 +14,7 @@
 namespace tsuya::scene {
 namespace {
 
-/// The mean of squares of an image of one kind, channel by channel.
+/// The means over blocks of side x side pixels, channel by channel.
 void average(const float *from, int width, int height, std::size_t channels, int side, float *to) {
     for (int y = 0; y < height; y += side)
         for (int x = 0; x < width; x += side, to += channels) {

@@ -67,9 +67,7 @@ std::vector<Aov> aovs_of(const RenderSettings &settings) {
 }
 
 std::vector<std::string> channels_of(Aov aov, const Scene &scene, int channels) {
-    std::vector<DyeVariable> dyes;
-    if (!scene.open_dyes.empty())
-        dyes = dye_variables(scene);
+    const std::vector<DyeVariable> dyes = planned_dyes(scene);
     const SpectralBasis basis = basis_of(dyes, channels);
     const bool at_depths = !dyes.empty();
     std::vector<std::string> names;

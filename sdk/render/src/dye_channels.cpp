@@ -122,12 +122,17 @@ std::optional<DyeDepths> depths_of(std::vector<DyeVariable> dyes,
     return make_dye_depths(std::move(dyes), channels);
 }
 
+std::vector<DyeVariable> planned_dyes(const Scene &scene) {
+    return scene.open_dyes.empty() ? std::vector<DyeVariable>{} : dye_variables(scene);
+}
+
 SpectralBasis basis_of(const std::vector<DyeVariable> &dyes, int channels) {
     return dyes.empty() ? SpectralBasis::of_renders(channels) : SpectralBasis{.count = channels};
 }
 
 RenderSettings as_planned(const Scene &scene, RenderSettings settings) {
-    settings.channels = plan(scene, settings).channels;
+    if (const auto dyes = planned_dyes(scene); !dyes.empty())
+        settings.channels = depth_channels(dyes);
     return settings;
 }
 

@@ -32,6 +32,9 @@ int depth_channels(const std::vector<DyeVariable> &dyes);
 std::optional<DyeDepths> depths_of(std::vector<DyeVariable> dyes,
                                    const std::array<double, kMostDyes> &most_dye, int channels);
 
+// The dyes whose depths are the channels of the scene's renders; none: channels are wavelengths.
+std::vector<DyeVariable> planned_dyes(const Scene &scene);
+
 // What the channels of a render are where they are wavelengths. \param dyes of its plan
 SpectralBasis basis_of(const std::vector<DyeVariable> &dyes, int channels);
 

@@ -20,10 +20,6 @@ std::uint64_t pixels_of(const Tile &t) {
     return static_cast<std::uint64_t>(t.x1 - t.x0) * static_cast<std::uint64_t>(t.y1 - t.y0);
 }
 
-bool has_depths(const Scene &scene) {
-    return !scene.open_dyes.empty() && !dye_variables(scene).empty();
-}
-
 // Half the difference of the means of two halves. \param mean of all samples
 // \param less sum of those of even index less the sum of the others
 double error_of_halves(std::int32_t samples, double mean, double less) {
@@ -43,7 +39,7 @@ std::uint64_t Film::bytes_needed(const Scene &scene, const RenderSettings &setti
         scene.light_groups.size() * static_cast<std::uint64_t>(settings.channels);
     // In the film, which has the difference too, and in the picture that is made of it
     std::uint64_t floats = 2 * (transport + aovs) + 1;
-    if (has_depths(scene))
+    if (!planned_dyes(scene).empty())
         floats += kJudgedDepths;
     if (settings.denoise)
         floats += transport + kFeatures + GuidePlanes::kPlanes;
@@ -58,7 +54,7 @@ Film::Film(const Scene &scene, const RenderSettings &settings)
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     sum.resize(pixels * groups * static_cast<std::size_t>(channels));
     difference.resize(pixels);
-    if (has_depths(scene))
+    if (!planned_dyes(scene).empty())
         depth_difference.resize(kJudgedDepths * pixels);
     if (settings.denoise) {
         odd_sum.resize(sum.size());
@@ -225,7 +221,7 @@ std::int32_t Film::samples_at(int x, int y) const {
 
 SpectralImage Film::develop(const Scene &scene, const RenderSettings &settings) const {
     SpectralImage image = SpectralImage::make(
-        width, height, basis_of(plan(scene, settings).dyes, channels), scene.light_groups);
+        width, height, basis_of(planned_dyes(scene), channels), scene.light_groups);
     image.data_window = settings.crop;
     if (settings.alpha)
         image.alpha = Image::make(width, height, {"A"});

@@ -113,11 +113,8 @@ class Planner {
     }
 
     void channels() {
-        p.channels = settings_.channels;
-        if (!scene_.open_dyes.empty())
-            p.dyes = dye_variables(scene_);
-        if (!p.dyes.empty())
-            p.channels = depth_channels(p.dyes);
+        p.channels = as_planned(scene_, settings_).channels;
+        p.dyes = planned_dyes(scene_);
         std::string names;
         for (const DyeVariable &dye : p.dyes)
             names += (names.empty() ? "'" : " and '") + dye.name + "'";

@@ -94,7 +94,7 @@ void check_memory(const Scene &scene, const RenderSettings &settings) {
 
 RenderResult result_of(const Film &film, const Scene &scene, const RenderSettings &settings) {
     RenderResult result{.image = film.develop(scene, settings)};
-    result.image.depths = depths_of(plan(scene, settings).dyes, film.most_dye, settings.channels);
+    result.image.depths = depths_of(planned_dyes(scene), film.most_dye, settings.channels);
     RenderStats &stats = result.stats;
     stats.samples_per_pixel = film.samples_per_pixel();
     stats.relative_error = film.relative_error();

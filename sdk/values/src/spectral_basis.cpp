@@ -52,7 +52,7 @@ double SpectralBasis::centre_nm(int channel) const {
 }
 
 bool SpectralBasis::is_valid() const {
-    if (count < 1)
+    if (count < (kind == BasisKind::fitted ? 2 : 1))
         return false;
     if (kind == BasisKind::hats)
         return std::isfinite(first_nm) && std::isfinite(last_nm) && first_nm < last_nm;
@@ -70,12 +70,13 @@ BasisWeights::BasisWeights(SpectralBasis basis) : basis_(std::move(basis)) {
 std::vector<double> BasisWeights::at_nm(double nm) const {
     const auto count = static_cast<std::size_t>(basis_.count);
     std::vector<double> weights(count);
-    if (basis_.kind == BasisKind::fitted) {
+    if (fitted_) {
+        const std::vector<double> &fitted = *fitted_;
         const double place = std::clamp<double>(nm, kFittedFirstNm, kFittedLastNm) - kFittedFirstNm;
-        const auto row = std::min(static_cast<std::size_t>(place), fitted_.size() / count - 2);
+        const auto row = std::min(static_cast<std::size_t>(place), fitted.size() / count - 2);
         const double t = place - static_cast<double>(row);
         for (std::size_t k = 0; k < count; ++k)
-            weights[k] = (1 - t) * fitted_[row * count + k] + t * fitted_[(row + 1) * count + k];
+            weights[k] = (1 - t) * fitted[row * count + k] + t * fitted[(row + 1) * count + k];
         return weights;
     }
     if (count < 2)

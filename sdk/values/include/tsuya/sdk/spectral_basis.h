@@ -3,6 +3,7 @@
 /// What K channels over wavelengths stand for: how a spectrum becomes K numbers, and K numbers a
 /// spectrum.
 
+#include <memory>
 #include <vector>
 
 #include "tsuya/sdk/spectrum.h"
@@ -54,7 +55,8 @@ class BasisWeights {
 
   private:
     SpectralBasis basis_;
-    std::vector<double> fitted_{}; // at whole nanometres, [nm][channel]; linear between
+    /// At whole nanometres, [nm][channel]; linear between
+    std::shared_ptr<const std::vector<double>> fitted_{};
 };
 
 /// The `count` channels of `spectrum`. Of hats: least squares at 1 nm over the basis' range,
