@@ -32,13 +32,18 @@ TEST(RenderCommand, RendersAScene) {
                       "6", "--channels", "8", "--aov", "depth,normal", "--progress", "json"});
     ASSERT_EQ(done.status, 0) << done.err;
     EXPECT_EQ(done.out, exr.string() + "\n" + (scratch / "new/a-A.png").string() + "\n");
+    int warnings = 0;
     for (const std::string &line : lines_of(done.err)) {
-        if (line.find("8 channels") != line.npos)
-            continue; // the warning of crimson
+        if (line.starts_with("tsuya: warning: ")) {
+            EXPECT_NE(line.find("fabrics.silk: 8 channels"), line.npos) << line; // crimson
+            ++warnings;
+            continue;
+        }
         const json progress = json::parse(line);
         EXPECT_EQ(progress.at("schema"), "tsuya-progress 1");
         EXPECT_LE(progress.at("fraction"), 1.0);
     }
+    EXPECT_EQ(warnings, 1) << done.err;
     EXPECT_GT(lines_of(done.err).size(), 2u);
     expect_picture(scratch / "new/a-A.png", 16, 20);
     const SpectralImage image = read_spectral_exr(exr);
