@@ -148,13 +148,13 @@ RenderResult render_checked(const Scene &scene, const RenderSettings &settings,
                                  prepared, kept != nullptr, progress);
         build_seconds = seconds_since(start);
         film.most_dye = traced.most_dye;
+        if (const auto depths = depths_of(planned.dyes, film.most_dye, settings.channels))
+            film.set_depths(*depths);
         phases = traced.phases;
         of_cloths = traced.warnings;
         const PhaseClock of_trace;
         trace_passes(traced, settings, film, keeper, progress);
         phases.push_back(of_trace.end("trace"));
-        if (const auto depths = depths_of(traced.plan.dyes, film.most_dye, settings.channels))
-            film.set_depths(*depths);
     } catch (const Interrupted &) {
         // Stopped while the scene was prepared: the film has what an earlier run left
     }
