@@ -1,6 +1,7 @@
 #include "tsuya/lab/weave_face.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -132,4 +133,11 @@ TEST(WeaveFace, RefusesPlacesOutOfRange) {
 }
 
 } // namespace
+
+TEST(WeaveFace, IsStopped) {
+    const std::atomic<bool> stop{true};
+    EXPECT_THROW(face_of(weave("black polyester satin"), kFacePlaces, {}, {.stop = &stop}),
+                 Interrupted);
+}
+
 } // namespace tsuya::lab

@@ -91,14 +91,14 @@ TEST_F(FabricFile, YarnsAreReadBackAsWritten) {
 
 TEST_F(FabricFile, AWeaveIsReadBackAsWritten) {
     Fabric fabric{.name = "woven", .specular = YarnLobes{}};
-    for (const ClothWeave &weave :
-         {ClothWeave{.preset = "polyester taffeta"}, ClothWeave{.file = "dupion.weave.toml",
-                                                     .irregularity = {.thickness = 0.125,
-                                                                     .filament = 0.0625,
-                                                                     .slubs_per_m = 12,
-                                                                     .slub_length = 0.03125,
-                                                                     .slub_gain = 1.5,
-                                                                     .seed = 7}}}) {
+    for (const ClothWeave &weave : {ClothWeave{.preset = "polyester taffeta"},
+                                    ClothWeave{.file = "dupion\n\"silk\".weave.toml",
+                                    .irregularity = {.thickness = 0.125,
+                                                    .filament = 0.0625,
+                                                    .slubs_per_m = 12,
+                                                    .slub_length = 0.03125,
+                                                    .slub_gain = 1.5,
+                                                    .seed = 7}}}) {
         fabric.weave = weave;
         write_fabric(fabric, file("w.fabric.toml"));
         EXPECT_EQ(read_fabric(file("w.fabric.toml")).weave, weave);

@@ -161,6 +161,8 @@ TEST(NearCloth, IsPlanned) {
         << explain(planned);
     scene.camera.orthographic_height = 1;
     EXPECT_NE(explain(plan(scene, quick(4))).find("is seen from far alone"), std::string::npos);
+    scene.fabrics[0].colours.specular_tint = Spectrum::constant(0);
+    EXPECT_EQ(plan(scene, quick(4)).near_cloths.size(), 1u); // by what follows the yarns
     scene.fabrics[0].specular = GgxFacets{};
     EXPECT_TRUE(plan(scene, quick(4)).near_cloths.empty()); // which shows no weave
     scene.fabrics[0] = satin(0.3);

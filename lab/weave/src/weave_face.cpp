@@ -95,11 +95,12 @@ int side_by_side(const detail::FilamentPacking &packing, const YarnSection &sect
 
 } // namespace
 
-WeaveMap face_of(const Weave &weave, int places, const GeometryOptions &options) {
+WeaveMap face_of(const Weave &weave, int places, const GeometryOptions &options,
+                 const Progress &progress) {
     if (places < 2 || places > 64)
         throw Error({"a map of " + std::to_string(places) + " places a crossing", "places",
                      "expected 2 to 64"});
-    const WeaveLayout layout = detail::lay_out(weave, options);
+    const WeaveLayout layout = detail::lay_out(weave, options, progress);
     const int crossings = layout.draft.ends * layout.draft.picks;
     while (places > 2 && crossings * places * places > kMostFacePlaces)
         --places;

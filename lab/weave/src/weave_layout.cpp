@@ -81,7 +81,8 @@ bool has_room(const WeaveLayout &layout) {
 }
 
 /// Sections, filaments and paths of yarns that have `share` of their width.
-void place_yarns(const Weave &weave, double share, double stiffness_length, WeaveLayout &layout) {
+void place_yarns(const Weave &weave, double share, double stiffness_length, WeaveLayout &layout,
+                 const Progress &progress) {
     const double warp_twist =
         layout.warp_turns / (layout.draft.picks * layout.weft_spacing * layout.tiles_y);
     const double weft_twist =
@@ -102,18 +103,19 @@ void place_yarns(const Weave &weave, double share, double stiffness_length, Weav
                                 .points = layout.points,
                                 .stiffness_length = stiffness_length,
                                 .warp_tension = weave.warp.tension,
-                                .weft_tension = weave.weft.tension});
+                                .weft_tension = weave.weft.tension},
+                               progress);
 }
 
 /// Yarns that jam, which is when they find no paths clear of each other, squeeze each other
 /// narrower and so thicker until they do.
 void place_jammed(const Weave &weave, const std::string &where, double stiffness_length,
-                  WeaveLayout &layout) {
+                  WeaveLayout &layout, const Progress &progress) {
     constexpr int kMostPercent = 10; // of their width, our choice
     const double overlap = layout.paths.overlap;
     for (int percent = 1; percent <= kMostPercent && !has_room(layout); ++percent) {
         layout.squeeze = 0.01 * percent;
-        place_yarns(weave, 1 - layout.squeeze, stiffness_length, layout);
+        place_yarns(weave, 1 - layout.squeeze, stiffness_length, layout, progress);
     }
     if (!has_room(layout))
         throw Error({"the yarns pass through each other by " + std::to_string(overlap * 1e6) +
@@ -124,7 +126,7 @@ void place_jammed(const Weave &weave, const std::string &where, double stiffness
 
 } // namespace
 
-WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
+WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options, const Progress &progress) {
     check_options(options);
     check_weave(weave, weave.name.empty() ? "weave" : weave.name);
     WeaveLayout layout{.draft = weave.draft,
@@ -146,9 +148,9 @@ WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options) {
     check_twist(name + ".weft", layout.weft_turns,
                 static_cast<double>(layout.draft.ends) * layout.tiles_x * layout.points);
     check_size(weave, layout);
-    place_yarns(weave, 1, options.stiffness_length, layout);
+    place_yarns(weave, 1, options.stiffness_length, layout, progress);
     if (!has_room(layout))
-        place_jammed(weave, name, options.stiffness_length, layout);
+        place_jammed(weave, name, options.stiffness_length, layout, progress);
     return layout;
 }
 

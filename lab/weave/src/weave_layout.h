@@ -24,6 +24,7 @@ struct WeaveLayout {
 };
 
 /// Throws Error like build_filaments.
-WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options);
+WeaveLayout lay_out(const Weave &weave, const GeometryOptions &options,
+                    const Progress &progress = {});
 
 } // namespace tsuya::lab::detail

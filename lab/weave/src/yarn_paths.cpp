@@ -4,10 +4,18 @@
 #include <array>
 #include <cmath>
 
+#include "tsuya/sdk/error.h"
+
 namespace tsuya::lab::detail {
 namespace {
 
-int wrap(int i, int n) { return ((i % n) + n) % n; }
+// Most places lie in the repeat, and divisions are slow.
+int wrap(int i, int n) { return i >= 0 && i < n ? i : ((i % n) + n) % n; }
+
+void check_stop(const Progress &progress) {
+    if (progress.stopped())
+        throw Interrupted("stopped while the paths of yarns were found");
+}
 
 /// The places of a yarn about a crossing, and how much room the crossed yarn needs there.
 struct Window {
@@ -53,12 +61,13 @@ class Solver {
                                                                            problem.weft_tension} {}
 
     /// Warp yarns, then weft yarns.
-    std::vector<double> solve() {
+    std::vector<double> solve(const Progress &progress) {
         constexpr int kIterations = 8000, kPolish = 10000;
         const double enough = 1e-7 * apart_;
         std::vector<double> now = start(), next, ahead = now;
         double momentum = 1;
         for (int i = 0; i < kIterations; ++i) {
+            check_stop(progress);
             next = ahead;
             descend(ahead, next);
             project(next);
@@ -78,6 +87,7 @@ class Solver {
                 break;
         }
         for (int i = 0; i < kPolish; ++i) {
+            check_stop(progress);
             overlap_ = project(now);
             if (overlap_ <= 1e-4 * apart_)
                 break;
@@ -216,9 +226,9 @@ double YarnPaths::weft_height(int pick, int place) const {
                 static_cast<std::size_t>(wrap(place, weft_points))];
 }
 
-YarnPaths solve_paths(const PathProblem &problem) {
+YarnPaths solve_paths(const PathProblem &problem, const Progress &progress) {
     Solver solver(problem);
-    const std::vector<double> z = solver.solve();
+    const std::vector<double> z = solver.solve(progress);
     YarnPaths paths;
     paths.overlap = solver.overlap();
     paths.warp_points = problem.draft.picks * problem.points;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tsuya/lab/draft.h"
+#include "tsuya/sdk/progress.h"
 #include "yarn_section.h"
 
 namespace tsuya::lab::detail {
@@ -30,7 +31,7 @@ struct YarnPaths {
     double weft_height(int pick, int place) const;
 };
 
-/// Paths with the middle of the cloth at 0.
-YarnPaths solve_paths(const PathProblem &problem);
+/// Paths with the middle of the cloth at 0. Throws Interrupted where progress.stop becomes true.
+YarnPaths solve_paths(const PathProblem &problem, const Progress &progress = {});
 
 } // namespace tsuya::lab::detail

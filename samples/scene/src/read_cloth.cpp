@@ -34,7 +34,8 @@ lab::Weave weave_of(const ClothWeave &weave, const std::filesystem::path &file) 
 Fabric read_cloth(const std::filesystem::path &file, const Progress &progress) {
     Fabric fabric = read_fabric(file, progress);
     if (fabric.weave)
-        fabric.weave->map = lab::face_of(weave_of(*fabric.weave, file));
+        fabric.weave->map =
+            lab::face_of(weave_of(*fabric.weave, file), lab::kFacePlaces, {}, progress);
     return fabric;
 }
 

@@ -29,8 +29,7 @@ std::vector<NearCloth> near_cloths(const Scene &scene, const std::vector<bool> &
     std::vector<NearCloth> cloths;
     for (std::size_t i = 0; i < scene.fabrics.size(); ++i) {
         const Fabric &fabric = scene.fabrics[i];
-        if (fabrics[i] && model_of(fabric) == "yarn" && has_specular(fabric) && fabric.weave &&
-            fabric.weave->has_map())
+        if (fabrics[i] && model_of(fabric) == "yarn" && fabric.weave && fabric.weave->has_map())
             cloths.push_back({fabric.name, near_within(fabric.weave->map, scene.camera)});
     }
     return cloths;

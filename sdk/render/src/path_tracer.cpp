@@ -24,6 +24,7 @@
 #include <optional>
 
 #include "coloured.h"
+#include "near_place.h"
 #include "pixel_filter.h"
 #include "vertex.h"
 
@@ -314,9 +315,8 @@ template <int K> void PathTracer<K>::follow(Path &path, Hit &hit, FirstHit *firs
         const SurfacePoint point = scene_.point(path.direction, hit);
         if (!point.is_finite())
             return spoil(path.radiance);
-        std::optional<NearPlace> near;
-        if (path.vertex == 0)
-            near = scene_.near_place(path.direction, hit, point);
+        const std::optional<NearPlace> near =
+            path.vertex == 0 ? near_place(scene_, path.direction, hit, point) : std::nullopt;
         const Vertex vertex(scene_, point, path.direction, path.wide, near ? &*near : nullptr);
         std::optional<Vertex> plain;
         if (path.tells && path.wide)

@@ -1,6 +1,6 @@
 #pragma once
 // Rays through a scene, each with what it meets and where cloth with holes lets it through; counted
-// by their kind.
+// by their kind. The short rays by which a vertex finds its smooth surface are not among them.
 
 #include <array>
 #include <cstdint>

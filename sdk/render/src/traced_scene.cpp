@@ -225,10 +225,10 @@ void TracedScene::find_most_dye(const std::vector<VaryingColours> &varying,
     for (std::size_t i = 0; i < varying.size(); ++i)
         for (const auto &dye : {varying[i].weft_dye, varying[i].warp_dye})
             if (dye && plan.dyes[*dye].open) {
-                const Fabric &fabric = scene.fabrics[i];
+                Fabric fabric = fabric_at_depths(scene.fabrics[i], varying[i], *whole);
+                fabric.weave.reset(); // from far it shows as much
                 const Material material =
-                    materials.resolve(fabric_at_depths(fabric, varying[i], *whole),
-                                      "fabrics." + fabric.name, progress);
+                    materials.resolve(fabric, "fabrics." + fabric.name, progress);
                 most_dye[*dye] = std::min(most_dye[*dye], material.most_dye);
             }
 }
@@ -332,39 +332,6 @@ glm::vec2 TracedScene::uv_at(const Hit &hit) const {
     const glm::uvec3 t = surface.triangle[hit.triangle];
     return hit.barycentric.x * surface.uv[t.x] + hit.barycentric.y * surface.uv[t.y] +
            hit.barycentric.z * surface.uv[t.z];
-}
-
-// Whether the triangle has places of its own on the cloth: not where its UVs lie in a point or
-// line.
-bool TracedScene::spans_cloth(const Hit &hit) const {
-    constexpr float kLeast = 1e-3f; // of the triangle's area
-    const Surface &surface = surface_of(hit);
-    const glm::uvec3 t = surface.triangle[hit.triangle];
-    const glm::vec2 a = surface.uv[t.y] - surface.uv[t.x], b = surface.uv[t.z] - surface.uv[t.x];
-    const std::vector<glm::vec3> &positions = accelerator.positions(hit.object);
-    const glm::vec3 area =
-        glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]);
-    return std::abs(a.x * b.y - a.y * b.x) > kLeast * glm::length(area);
-}
-
-// The place lies along the point's frame: from behind the weft runs the other way, and on the
-// cloth's own back the systems change places.
-std::optional<NearPlace> TracedScene::near_place(const glm::vec3 &direction, const Hit &hit,
-                                                 const SurfacePoint &point) const {
-    constexpr float kLeastFacing = 0.05f; // cosine by which a footprint is stretched
-    const NearYarn *const near = shading[point.cloth].near();
-    const Surface &surface = surface_of(hit);
-    if (!near || surface.uv.empty() || surface.warp.empty() || !spans_cloth(hit))
-        return std::nullopt;
-    const float facing = std::max(-glm::dot(direction, point.geometric_normal), kLeastFacing);
-    const float footprint = camera.pixel_width(hit.distance) / std::sqrt(facing);
-    if (!(footprint < near->far_from()))
-        return std::nullopt;
-    const glm::dvec2 uv = uv_at(hit);
-    if (point.colours != point.cloth)
-        return near->at({uv.y, uv.x}, footprint);
-    const bool behind = glm::dot(hit.face_normal, direction) > 0;
-    return near->at({behind ? -uv.x : uv.x, uv.y}, footprint);
 }
 
 glm::vec3 TracedScene::behind(const glm::vec3 &direction, const Hit &hit) const {

@@ -81,12 +81,11 @@ struct TracedScene {
     const Shading &shading_of(std::uint32_t cloth, bool wide) const {
         return wide && wide_shading[cloth] ? *wide_shading[cloth] : shading[cloth];
     }
+    const Surface &surface_of(const Hit &hit) const {
+        return scene.surfaces[scene.objects[hit.object].surface.value];
+    }
     // The point that a ray of this direction hit.
     SurfacePoint point(const glm::vec3 &direction, const Hit &hit) const;
-    // What the camera sees of a weave at the point; empty where its yarns are not told apart.
-    std::optional<NearPlace> near_place(const glm::vec3 &direction, const Hit &hit,
-                                        const SurfacePoint &point) const;
-    bool spans_cloth(const Hit &hit) const;
     // Of the cloth, metres; 0 where the surface has none.
     glm::vec2 uv_at(const Hit &hit) const;
     // Along the weft, unit; 0 where the surface has no yarns.
@@ -114,9 +113,6 @@ struct TracedScene {
         std::optional<std::uint32_t> opacity;
     };
     const Sides &sides_at(const Hit &hit) const;
-    const Surface &surface_of(const Hit &hit) const {
-        return scene.surfaces[scene.objects[hit.object].surface.value];
-    }
     // A map with its place.
     struct PreparedOpacity {
         const MipTexture *picture;

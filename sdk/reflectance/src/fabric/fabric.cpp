@@ -176,24 +176,25 @@ void check_fabric(const Fabric &fabric, const std::string &where) {
                       "expected at most one of each");
     check_needs_yarns(fabric, where, problems);
     problems.throw_if_any();
+    if (fabric.weave)
+        check_irregularity(fabric.weave->irregularity, where + ".weave.irregularity");
+    if (fabric.weave && fabric.weave->has_map())
+        check_weave_map(fabric.weave->map, where + ".weave");
 }
 
 std::vector<Problem> fabric_warnings(const Fabric &fabric, const std::string &where) {
+    std::vector<Problem> warnings;
     if (fabric.weave && !std::visit(TellsYarnsApart{}, fabric.specular))
-        return {{"the model '" + std::string(model_of(fabric)) + "' shows no weave",
-                 where + ".weave", "expected the model 'yarn', or no weave"}};
+        warnings.push_back({"the model '" + std::string(model_of(fabric)) + "' shows no weave",
+                            where + ".weave", "expected the model 'yarn', or no weave"});
     const auto *const tabulated = std::get_if<TabulatedSpecular>(&fabric.specular);
-    if (!tabulated)
-        return {};
-    const auto symmetry = likely_symmetry(tabulated->table);
-    if (!symmetry)
-        return {};
-    return {
-        {"the table has symmetry none and light from one side only, which is taken for light from "
-         "all sides",
-         where + ".table",
-         std::string("declare `# symmetry: ") + name_of(*symmetry) +
-             "` in it if the cloth has that symmetry"}};
+    if (const auto symmetry = tabulated ? likely_symmetry(tabulated->table) : std::nullopt)
+        warnings.push_back({"the table has symmetry none and light from one side only, which is "
+                            "taken for light from all sides",
+                            where + ".table",
+                            std::string("declare `# symmetry: ") + name_of(*symmetry) +
+                                "` in it if the cloth has that symmetry"});
+    return warnings;
 }
 
 } // namespace tsuya

@@ -301,7 +301,7 @@ struct FieldWriter {
     }
     void operator()(const Field &field, const std::string &value) const {
         if (field.written)
-            out << field.key << " = " << quoted(value) << "\n";
+            out << field.key << " = " << toml_string(value) << "\n";
     }
     void operator()(const Field &field, const Irregularity &irregularity) const {
         if (irregularity != Irregularity{}) {

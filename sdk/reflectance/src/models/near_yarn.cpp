@@ -336,6 +336,4 @@ double NearYarn::crowding(std::size_t axis) const {
                      : 0;
 }
 
-std::size_t NearYarn::bytes() const { return sizeof *this + place_.size() * sizeof(Packed); }
-
 } // namespace tsuya

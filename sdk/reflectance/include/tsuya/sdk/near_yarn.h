@@ -73,9 +73,6 @@ class NearYarn {
     /// Surface of a system's filaments over the part of the face that the system has, weft 0, warp
     /// 1: pi/2 is a full cover. 0 where it is never on the face.
     double crowding(std::size_t axis) const;
-    /// Size of the cloth after which all begins again but slubs, metres.
-    glm::dvec2 period() const { return threads_.period(); }
-    std::size_t bytes() const; ///< of memory
 
   private:
     static constexpr int kSlopes = NearPlace::kSlopes;

@@ -59,7 +59,8 @@ struct RenderSettings {
     bool widen_after_diffuse = false;
     /// false: do even what the plan shows to be idle; the picture must not change
     bool skip = true;
-    /// The same of some features, by their names, see feature_names.
+    /// The same of some features, by their names, see feature_names; those that are there only
+    /// where they are asked for, such as a lens, have nothing to keep.
     std::vector<std::string> keep{};
     /// The file in which a render keeps what it has; empty: none. Replaced atomically while it
     /// runs, and at its end, interrupted or not: it is the caller who removes it, once the picture

@@ -20,7 +20,7 @@ enum class BasisKind {
     /// Means over narrow windows about `node_nm`, nearly samples, so that products of spectra stay
     /// nearly products of channels; and the most likely spectrum of cloth that has them: the linear
     /// prediction of least variance for a spectrum of unknown mean, [Cressie] section 3.2, under a
-    /// model of how reflectances vary, see reflectance_covariance.h. Weights may be negative.
+    /// model of how reflectances vary, see sdk/values/src/. Weights may be negative.
     fitted,
 };
 
