@@ -6,6 +6,7 @@
 #include <string>
 
 #include "channel_sums.h"
+#include "group_weights.h"
 #include "rows.h"
 #include "tsuya/color/picture_region.h"
 #include "tsuya/sdk/detail/counted.h"
@@ -13,21 +14,6 @@
 
 namespace tsuya {
 namespace {
-
-std::vector<std::vector<ChannelWeights>> group_weights(const SpectralImage &transport,
-                                                       std::span<const Spectrum> lamps,
-                                                       const RelightOptions &options) {
-    std::vector<std::vector<ChannelWeights>> all;
-    for (std::size_t g = 0; g < transport.groups.size(); ++g) {
-        const double scale = options.group_scale.empty() ? 1.0 : options.group_scale[g];
-        const Spectrum &lamp = lamps[lamps.size() == 1 ? 0 : g];
-        all.push_back(channel_weights(transport.depths
-                                          ? lamp_matrix(lamp, *transport.depths, options.observer)
-                                          : lamp_matrix(lamp, transport.basis, options.observer),
-                                      glm::dmat3(1.0), scale));
-    }
-    return all;
-}
 
 void check(const SpectralImage &transport, std::span<const Spectrum> lamps,
            const RelightOptions &options) {
@@ -68,6 +54,22 @@ std::vector<double> group_levels(const SpectralImage &transport) {
 }
 
 } // namespace
+
+std::vector<std::vector<ChannelWeights>> group_weights(const SpectralImage &transport,
+                                                       std::span<const Spectrum> lamps,
+                                                       const RelightOptions &options,
+                                                       const glm::dmat3 &matrix) {
+    std::vector<std::vector<ChannelWeights>> all;
+    for (std::size_t g = 0; g < transport.groups.size(); ++g) {
+        const double scale = options.group_scale.empty() ? 1.0 : options.group_scale[g];
+        const Spectrum &lamp = lamps[lamps.size() == 1 ? 0 : g];
+        all.push_back(channel_weights(transport.depths
+                                          ? lamp_matrix(lamp, *transport.depths, options.observer)
+                                          : lamp_matrix(lamp, transport.basis, options.observer),
+                                      matrix, scale));
+    }
+    return all;
+}
 
 std::vector<glm::dvec3> lamp_matrix(const Spectrum &lamp, const SpectralBasis &basis,
                                     Observer observer) {
@@ -126,28 +128,27 @@ Image relight(const SpectralImage &transport, const Spectrum &lamp, const Religh
     return relight(transport, std::span<const Spectrum>(&lamp, 1), options);
 }
 
+LitBy lit_by(const SpectralImage &transport, const Lighting &lighting, Observer observer) {
+    LitBy lit{.options = {.observer = observer}};
+    for (const NamedLamp &lamp : lighting.lamps) {
+        lit.lamps.push_back(lamp.spectrum);
+        lit.options.group_scale.push_back(lamp.factor);
+    }
+    if (lighting.lamps.size() == 1)
+        lit.options.group_scale.assign(transport.groups.size(), lighting.lamps[0].factor);
+    check(transport, lit.lamps, lit.options);
+    return lit;
+}
+
 void check_lighting(const SpectralImage &transport, const Lighting &lighting) {
-    std::vector<Spectrum> spectra(lighting.lamps.size());
-    RelightOptions options;
-    for (std::size_t g = 0; g < transport.groups.size(); ++g)
-        if (!lighting.lamps.empty())
-            options.group_scale.push_back(
-                lighting.lamps[lighting.lamps.size() == 1 ? 0 : g % lighting.lamps.size()].factor);
-    check(transport, spectra, options);
+    lit_by(transport, lighting);
 }
 
 Lighting lighting_of(const NamedLamp &lamp) { return {lamp.name, lamp.caption, {lamp}}; }
 
 Image relight(const SpectralImage &transport, const Lighting &lighting, Observer observer) {
-    std::vector<Spectrum> spectra;
-    RelightOptions options{.observer = observer};
-    for (const NamedLamp &lamp : lighting.lamps) {
-        spectra.push_back(lamp.spectrum);
-        options.group_scale.push_back(lamp.factor);
-    }
-    if (lighting.lamps.size() == 1)
-        options.group_scale.assign(transport.groups.size(), lighting.lamps[0].factor);
-    return relight(transport, spectra, options);
+    const LitBy lit = lit_by(transport, lighting, observer);
+    return relight(transport, lit.lamps, lit.options);
 }
 
 glm::dvec3 adopted_white(const SpectralImage &transport, const Lighting &lighting,

@@ -6,44 +6,35 @@
 
 #include "channel_sums.h"
 #include "display_curve.h"
+#include "group_weights.h"
 #include "rows.h"
 #include "tsuya/color/picture_region.h"
 #include "tsuya/color/srgb.h"
-#include "tsuya/sdk/detail/counted.h"
-#include "tsuya/sdk/error.h"
 
 namespace tsuya {
 namespace {
+
+/// The white that the options adapt from; any where they do not.
+glm::dvec3 white_to_adapt(const SpectralImage &transport, const Lighting &lighting,
+                          const DisplayOptions &options) {
+    return options.adapt == Adaptation::none ? srgb_white() : adopted_white(transport, lighting);
+}
 
 /// From X, Y, Z under the lighting to linear light of Rec. 709.
 glm::dmat3 linear_matrix(const SpectralImage &transport, const Lighting &lighting,
                          const DisplayOptions &options) {
     return std::exp2(options.exposure_stops) * srgb_from_xyz() *
-           adaptation_matrix(options.adapt, adopted_white(transport, lighting), srgb_white(),
-                             options.degree);
-}
-
-/// The weights of each light group.
-std::vector<std::vector<ChannelWeights>>
-group_weights(const SpectralImage &transport, const Lighting &lighting, const glm::dmat3 &matrix) {
-    check_lighting(transport, lighting);
-    std::vector<std::vector<ChannelWeights>> all;
-    for (std::size_t g = 0; g < transport.groups.size(); ++g) {
-        const NamedLamp &lamp = lighting.lamps[lighting.lamps.size() == 1 ? 0 : g];
-        all.push_back(channel_weights(transport.depths
-                                          ? lamp_matrix(lamp.spectrum, *transport.depths)
-                                          : lamp_matrix(lamp.spectrum, transport.basis),
-                                      matrix, lamp.factor));
-    }
-    return all;
+           adaptation_matrix(options.adapt, white_to_adapt(transport, lighting, options),
+                             srgb_white(), options.degree);
 }
 
 /// Rows of linear light, `finish(y, row)` being what becomes of each.
 template <class Finish>
 void linear_rows(const SpectralImage &transport, const Lighting &lighting,
                  const DisplayOptions &options, const Finish &finish) {
-    const auto weights =
-        group_weights(transport, lighting, linear_matrix(transport, lighting, options));
+    const LitBy lit = lit_by(transport, lighting);
+    const auto weights = group_weights(transport, lit.lamps, lit.options,
+                                       linear_matrix(transport, lighting, options));
     const std::size_t values = static_cast<std::size_t>(transport.width) *
                                static_cast<std::size_t>(transport.basis.count) * weights.size();
     for_rows(transport.height, values, [&](int first, int end) {
@@ -68,7 +59,7 @@ Image shown_by_passes(const SpectralImage &transport, const Lighting &lighting,
     Image xyz = relight(transport, lighting);
     if (transport.alpha)
         divide_by_alpha(xyz, *transport.alpha);
-    const Image colors = display(xyz, adopted_white(transport, lighting), options);
+    const Image colors = display(xyz, white_to_adapt(transport, lighting, options), options);
     if (!transport.alpha)
         return colors;
     Image picture = make_picture(transport);

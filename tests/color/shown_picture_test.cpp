@@ -100,6 +100,32 @@ TEST(AdoptedWhite, IsThatOfTheLight) {
                          "3 lamps for 2 light groups");
 }
 
+// The lamp of a picture of radiance is in it: no other may be asked for.
+TEST(ShownPicture, RadianceKeepsItsLamp) {
+    SpectralImage image = some_light();
+    image.emissive = true;
+    const Lighting equal = lighting_of({.name = "E", .spectrum = lamp("E")});
+    EXPECT_EQ(shown_picture(image, equal).data, shown_picture(some_light(), equal).data);
+    EXPECT_NEAR(adopted_white(image, equal).x, 1, 1e-3);
+    for (const Lighting &lighting : {mixed(), lighting_of({.name = "A", .spectrum = lamp("A")})}) {
+        const auto refused = [](const auto &action) {
+            test::expect_problem(action, "lamps", "the picture is radiance");
+        };
+        refused([&] { shown_picture(image, lighting); });
+        refused([&] { shown_picture(image, lighting, {.display = "Rec.2020"}); });
+        refused([&] { linear_picture(image, lighting); });
+        refused([&] { linear_picture(image, lighting, {.adapt = Adaptation::cat02}); });
+        refused([&] { share_out_of_gamut(image, lighting); });
+        refused([&] { adopted_white(image, lighting); });
+        refused([&] { check_lighting(image, lighting); });
+    }
+}
+
+TEST(ShownPicture, RefusesADegreeWithoutAdaptationToo) {
+    const SpectralImage image = some_light();
+    test::expect_problem([&] { shown_picture(image, mixed(), {.degree = 1.5}); }, "degree", "1.5");
+}
+
 TEST(OutOfGamut, CountsWhatTheTriangleLacks) {
     SpectralImage image = SpectralImage::make(4, 1, {.count = 16}, {"key"});
     const Lighting day = lighting_of({.name = "D65", .spectrum = lamp("D65")});

@@ -38,7 +38,7 @@ struct RelightOptions {
 /// `transport.groups`. Channels X, Y, Z: linear, scene-referred, relative to each lamp (a perfect
 /// white that a group lights with irradiance pi has Y = 1). Rows run in parallel, as
 /// detail::run_with_threads says. Throws Error if the numbers of lamps or scales do not fit the
-/// groups, or a lamp has no visible power.
+/// groups, a lamp has no visible power, or the picture is radiance and a lamp is not E.
 Image relight(const SpectralImage &transport, std::span<const Spectrum> lamps,
               const RelightOptions &options = {});
 /// The same with one lamp for all light groups.
@@ -55,7 +55,8 @@ struct Lighting {
 /// One lamp for all light groups, with its name and caption.
 Lighting lighting_of(const NamedLamp &lamp);
 
-/// Throws Error as relight if the number of lamps or their factors do not fit the light groups.
+/// Throws Error as relight if lamps or their factors do not fit the light groups, or the picture is
+/// radiance, see SpectralImage::emissive, and a lamp is not E.
 void check_lighting(const SpectralImage &transport, const Lighting &lighting);
 
 /// The picture under a lighting. Throws Error as relight.
