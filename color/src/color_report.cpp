@@ -12,9 +12,23 @@
 namespace tsuya {
 namespace {
 
-/// X, Y, Z of each pixel under a lighting, alpha taken out.
+/// `value(i)` for each of so many, on all threads.
+template <class Value> auto values_of(std::size_t count, const Value &value) {
+    std::vector<decltype(value(count))> values(count);
+    constexpr std::size_t kWork = 64; // values that one stands for: it is no mere addition
+    for_rows(static_cast<int>(count), kWork, [&](int first, int end) {
+        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(end); ++i)
+            values[i] = value(i);
+    });
+    return values;
+}
+
+/// The colours of each pixel under a lighting, alpha taken out.
 struct LitPicture {
     std::vector<glm::dvec3> xyz{};
+    std::vector<glm::dvec3> lab{}; ///< beside the lighting's own white
+    /// Beside the white of the first lighting, adapted to that; empty where no eye adapts
+    std::vector<glm::dvec3> adapted_lab{};
     glm::dvec3 white{1, 1, 1};
 };
 
@@ -26,7 +40,28 @@ LitPicture light(const SpectralImage &transport, const Lighting &lighting, Obser
     LitPicture lit{.white = adopted_white(transport, lighting, observer)};
     for (std::size_t i = 0; i + 2 < image.data.size(); i += 3)
         lit.xyz.push_back(scale * glm::dvec3(image.data[i], image.data[i + 1], image.data[i + 2]));
+    lit.lab =
+        values_of(lit.xyz.size(), [&](std::size_t i) { return lab_of(lit.xyz[i], lit.white); });
     return lit;
+}
+
+/// The picture under each lighting; the first is the reference.
+std::vector<LitPicture> light_all(const SpectralImage &transport,
+                                  const std::vector<Lighting> &lightings, Observer observer,
+                                  double scale) {
+    std::vector<LitPicture> all;
+    for (const Lighting &lighting : lightings) {
+        all.push_back(light(transport, lighting, observer, scale));
+        LitPicture &lit = all.back();
+        const glm::dvec3 to = all.front().white;
+        if (all.size() == 1 || !can_adapt(Adaptation::cat02, to) ||
+            !can_adapt(Adaptation::cat02, lit.white))
+            continue;
+        const glm::dmat3 adapt = adaptation_matrix(Adaptation::cat02, lit.white, to);
+        lit.adapted_lab = values_of(lit.xyz.size(),
+                                    [&](std::size_t i) { return lab_of(adapt * lit.xyz[i], to); });
+    }
+    return all;
 }
 
 glm::dvec3 mean_of(const LitPicture &lit, const std::vector<std::size_t> &pixels) {
@@ -36,43 +71,30 @@ glm::dvec3 mean_of(const LitPicture &lit, const std::vector<std::size_t> &pixels
     return sum / static_cast<double>(pixels.size());
 }
 
-/// The value of each pixel, on all threads.
-template <class Value>
-std::vector<double> values_of(const std::vector<std::size_t> &pixels, const Value &value) {
-    std::vector<double> values(pixels.size());
-    constexpr std::size_t kWork = 64; // values that a pixel stands for: it is no mere addition
-    for_rows(static_cast<int>(pixels.size()), kWork, [&](int first, int end) {
-        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(end); ++i)
-            values[i] = value(pixels[i]);
-    });
-    return values;
-}
-
 PartColor color_of(const LitPicture &lit, const std::string &lighting,
                    const std::vector<std::size_t> &pixels) {
     PartColor color{lighting, lab_of(mean_of(lit, pixels), lit.white), {}};
-    for (int c = 0; c < 3; ++c)
-        color.over_angle[static_cast<std::size_t>(c)] = spread_of(values_of(
-            pixels, [&](std::size_t pixel) { return lab_of(lit.xyz[pixel], lit.white)[c]; }));
+    for (int c = 0; c < 3; ++c) {
+        std::vector<double> values;
+        for (const std::size_t pixel : pixels)
+            values.push_back(lit.lab[pixel][c]);
+        color.over_angle[static_cast<std::size_t>(c)] = spread_of(std::move(values));
+    }
     return color;
 }
 
 PartChange change_of(const LitPicture &reference, const LitPicture &test,
                      const std::vector<std::size_t> &pixels) {
     PartChange change;
-    if (!can_adapt(Adaptation::cat02, reference.white) || !can_adapt(Adaptation::cat02, test.white))
+    if (test.adapted_lab.empty())
         return change;
     const glm::dmat3 adapt = adaptation_matrix(Adaptation::cat02, test.white, reference.white);
-    const auto compare = [&](DifferenceFormula formula, const glm::dvec3 &a, const glm::dvec3 &b) {
-        return color_difference(formula, lab_of(a, reference.white),
-                                lab_of(adapt * b, reference.white));
-    };
     const glm::dvec3 a = mean_of(reference, pixels), b = mean_of(test, pixels);
-    change.ciede2000 = compare(DifferenceFormula::ciede2000, a, b);
+    change.ciede2000 = ciede2000(lab_of(a, reference.white), lab_of(adapt * b, reference.white));
     change.inconstancy = color_inconstancy(a, reference.white, b, test.white);
     const auto over_angle = [&](DifferenceFormula formula) {
-        return spread_of(values_of(pixels, [&](std::size_t pixel) {
-            return compare(formula, reference.xyz[pixel], test.xyz[pixel]);
+        return spread_of(values_of(pixels.size(), [&](std::size_t i) {
+            return color_difference(formula, reference.lab[pixels[i]], test.adapted_lab[pixels[i]]);
         }));
     };
     change.ciede2000_over_angle = over_angle(DifferenceFormula::ciede2000);
@@ -139,7 +161,9 @@ Spread spread_of(std::vector<double> values) {
             ranked(0.95)};
 }
 
-ColorReporter::ColorReporter(ReportOptions options) : options_(std::move(options)) {}
+ColorReporter::ColorReporter(ReportOptions options) : options_(std::move(options)) {
+    report_.exposure_stops = options_.exposure_stops;
+}
 
 void ColorReporter::add(const ReportPicture &picture, const SpectralImage &transport) {
     std::vector<std::string> names;
@@ -163,9 +187,8 @@ void ColorReporter::add(const ReportPicture &picture, const SpectralImage &trans
                                  .pixels = region.pixels.size()});
     }
     for (const Observer observer : options_.observers) {
-        std::vector<LitPicture> lit;
-        for (const Lighting &lighting : picture.lightings)
-            lit.push_back(light(transport, lighting, observer, std::exp2(options_.exposure_stops)));
+        const std::vector<LitPicture> lit =
+            light_all(transport, picture.lightings, observer, std::exp2(options_.exposure_stops));
         for (Cloth &cloth : cloths_)
             if (cloth.part >= first) {
                 cloth.white_xyz.emplace_back();

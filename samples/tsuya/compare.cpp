@@ -109,7 +109,9 @@ struct Compare final : Command {
                   "tsuya compare dress.exr --lamps D65,A --html page.html");
         o.notes(
             "Prints CIEDE2000 between the lamps, each picture adapted to D65 by CAT02. Pictures "
-            "are for 2 degrees, as displays are.");
+            "are for 2 degrees, as displays are. L* = 100 of all figures is Y = 1, after as many "
+            "stops as --exposure gives; a metered exposure is for the pictures of the sheet "
+            "alone.");
     }
 
     Status run(Console &console) override {
@@ -128,12 +130,11 @@ struct Compare final : Command {
             for (const NamedLamp &lamp : named)
                 console.warnings(lamp.warnings);
             const std::vector<PageDress> dresses = read_dresses();
-            const DisplayOptions display = shown_look(dresses, named);
-            differences = compare(dresses, named, display, console);
+            differences = compare(dresses, named, console);
             if (!report.empty() || json || !output.empty())
-                colours = report_on(dresses, named, display);
+                colours = report_on(dresses, named);
             if (!output.empty())
-                out_of_gamut = draw(dresses, named, display, colours);
+                out_of_gamut = draw(dresses, named, colours);
             if (!html.empty())
                 page = make_page(dresses, named);
         });
@@ -180,10 +181,12 @@ struct Compare final : Command {
         return lightings;
     }
 
+    /// Exposure of all figures, which a metered one would make depend on the other pictures.
+    double figure_stops() const { return look.look().exposure_stops; }
+
     ColorReport report_on(const std::vector<PageDress> &dresses,
-                          const std::vector<NamedLamp> &named,
-                          const DisplayOptions &display) const {
-        ColorReporter reporter({.exposure_stops = display.exposure_stops});
+                          const std::vector<NamedLamp> &named) const {
+        ColorReporter reporter({.exposure_stops = figure_stops()});
         for (const PageDress &dress : dresses) {
             SpectralImage image = dress.image;
             for (const std::string &dye : shown_dyes()) {
@@ -230,7 +233,7 @@ struct Compare final : Command {
 
     std::vector<DyedDifferences> compare(const std::vector<PageDress> &dresses,
                                          const std::vector<NamedLamp> &named,
-                                         const DisplayOptions &display, Console &console) const {
+                                         Console &console) const {
         std::vector<DyedDifferences> differences;
         for (std::size_t i = 0; i < dresses.size(); ++i) {
             SpectralImage image = dresses[i].image;
@@ -239,9 +242,8 @@ struct Compare final : Command {
                     console.warnings(scene::show_dyes(image, {&dye, 1}));
                 differences.push_back(
                     {dresses.size() > 1 ? transports[i].string() : "", dye,
-                     compare_lightings(
-                         image, lightings_of(image, named),
-                         {.observer = eye(), .exposure_stops = display.exposure_stops})});
+                     compare_lightings(image, lightings_of(image, named),
+                                       {.observer = eye(), .exposure_stops = figure_stops()})});
             }
         }
         return differences;
@@ -249,8 +251,8 @@ struct Compare final : Command {
 
     /// Writes the sheet. \return the largest share of pixels out of gamut
     double draw(const std::vector<PageDress> &dresses, const std::vector<NamedLamp> &named,
-                const DisplayOptions &display, const ColorReport &colours) const {
-        scene::CompareSheet sheet(named, display, eye());
+                const ColorReport &colours) const {
+        scene::CompareSheet sheet(named, shown_look(dresses, named), eye(), figure_stops());
         for (std::size_t i = 0; i < dresses.size(); ++i) {
             SpectralImage image = dresses[i].image;
             for (const std::string &dye : shown_dyes()) {
@@ -303,12 +305,11 @@ struct Compare final : Command {
     }
 
     Json json_of_differences(const std::vector<DyedDifferences> &differences) const {
-        Json numbers{{"schema", "tsuya-compare 2"},
-                     {"transport", transports[0].string()},
-                     {"measure", "CIEDE2000"},
-                     {"observer_deg", observer},
-                     {"adaptation", to_string(CompareOptions{}.adapt)},
-                     {"differences", Json::array()}};
+        Json numbers{
+            {"schema", "tsuya-compare 2"},      {"transport", transports[0].string()},
+            {"measure", "CIEDE2000"},           {"observer_deg", observer},
+            {"exposure_stops", figure_stops()}, {"adaptation", to_string(CompareOptions{}.adapt)},
+            {"differences", Json::array()}};
         for (const DyedDifferences &dyed : differences)
             for (const LampDifference &d : dyed.lamps) {
                 Json one{{"first", d.first}, {"second", d.second}, {"mean", d.mean},

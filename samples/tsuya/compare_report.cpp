@@ -214,9 +214,12 @@ std::string csv_of(const ColorReport &report) {
 
 std::string text_of(const ColorReport &report) {
     std::ostringstream out;
-    out << "CIELAB beside the white of each lamp; change of lamp by CAT02, fully adapted: "
-           "CIEDE2000,\n"
-           "and CMCCON02 (ISO 105-J05, CMC(2:1)); metamerism by ISO 18314-4 with CIEDE2000.\n"
+    out << "CIELAB beside the white of each lamp, L* = 100 is Y = 1";
+    if (report.exposure_stops != 0)
+        out << " after the exposure (stops: " << report.exposure_stops << ")";
+    out << ";\nchange of lamp by CAT02, fully adapted: CIEDE2000, and CMCCON02 (ISO 105-J05, "
+           "CMC(2:1));\n"
+           "metamerism by ISO 18314-4 with CIEDE2000.\n"
            "Percentiles are over the pixels, which see the cloth at as many angles.\n";
     for (const PartReport &part : report.parts) {
         out << '\n' << title_of(part) << " (" << part.pixels << " pixels)\n";

@@ -9,7 +9,7 @@
 
 namespace tsuya::program {
 
-/// The schema `tsuya-color-report 1`, described in samples/README.md.
+/// What the schema `tsuya-compare 2` has of a report, described in samples/README.md.
 Json json_of_report(const ColorReport &report);
 /// A figure a row.
 std::string csv_of(const ColorReport &report);

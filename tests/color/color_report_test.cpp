@@ -117,6 +117,7 @@ TEST(ColorReport, AlphaAndExposureAreNoColour) {
     const auto lightness = [](const SpectralImage &image, double stops) {
         ColorReporter reporter({.observers = {Observer::cie1931}, .exposure_stops = stops});
         reporter.add({.lightings = lightings()}, image);
+        EXPECT_EQ(reporter.report().exposure_stops, stops);
         return reporter.report().parts[0].observed[0].colors[0].lab.x;
     };
     EXPECT_NEAR(lightness(half, 1), lightness(ramp_of("rose"), 0), 1e-3);

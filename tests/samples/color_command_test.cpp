@@ -1,5 +1,6 @@
 // relight, compare and list config from end to end.
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -94,6 +95,35 @@ TEST(Program, ReportsFabricsAndPanels) {
     const std::string text = report("r.txt");
     for (const char *part : {"CMCCON02", "metamerism: multiplicative", "fabric silk", "a, "})
         EXPECT_NE(text.find(part), std::string::npos) << part << text;
+}
+
+// A metered exposure, which other pictures change, is for the sheet alone.
+TEST(Program, FiguresHaveTheExposureThatIsStated) {
+    const Scratch scratch;
+    const std::string exr = (scratch / "a.exr").string();
+    const std::string scene = write_scene(scratch);
+    ASSERT_EQ(run(scratch, {"render", scene, "-o", exr}).status, 0);
+    const auto report = [&](const std::string &name, const char *exposure) {
+        const std::string file = (scratch / name).string();
+        const Outcome made = run(scratch, {"compare", exr, "--lamps", "D65,A", "--report", file,
+                                           "--exposure", exposure});
+        EXPECT_EQ(made.status, 0) << made.err;
+        return read_file(file);
+    };
+    const json metered = json::parse(report("m.json", "metered")),
+               plain = json::parse(report("p.json", "0")),
+               brighter = json::parse(report("b.json", "1"));
+    EXPECT_EQ(metered, plain);
+    EXPECT_EQ(metered.at("exposure_stops"), 0);
+    EXPECT_EQ(brighter.at("exposure_stops"), 1);
+    const auto lightness = [](const json &numbers) -> double {
+        return numbers.at("parts").at(0).at("observers").at(0).at("colors").at(0).at("lab").at(0);
+    };
+    // L* + 16 goes with the cube root of Y.
+    EXPECT_NEAR(lightness(brighter) + 16, std::cbrt(2.0) * (lightness(plain) + 16), 1e-6);
+    EXPECT_NE(report("m.txt", "metered").find("L* = 100 is Y = 1;"), std::string::npos);
+    EXPECT_NE(report("b.txt", "1").find("L* = 100 is Y = 1 after the exposure (stops: 1);"),
+              std::string::npos);
 }
 
 TEST(Program, RelightsIntoEveryFormat) {

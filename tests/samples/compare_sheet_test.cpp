@@ -23,13 +23,16 @@ SpectralImage cloth(int width, int height) {
 
 std::vector<NamedLamp> named(const std::vector<std::string> &names) { return parse_lamps(names); }
 
-Sheet sheet_of(const SpectralImage &image, const std::vector<NamedLamp> &lamps) {
-    ColorReporter reporter;
+Sheet sheet_of(const SpectralImage &image, const std::vector<NamedLamp> &lamps,
+               double picture_stops = 0, double figure_stops = 0) {
+    ColorReporter reporter({.exposure_stops = figure_stops});
     ReportPicture picture{.name = "a"};
     for (const NamedLamp &lamp : lamps)
         picture.lightings.push_back(lighting_of(lamp));
     reporter.add(picture, image);
-    CompareSheet sheet(lamps, default_look(), Observer::cie1964);
+    DisplayOptions look = default_look();
+    look.exposure_stops = picture_stops;
+    CompareSheet sheet(lamps, look, Observer::cie1964, figure_stops);
     sheet.add("crimson", image, reporter.report().parts);
     return sheet.sheet();
 }
@@ -64,6 +67,25 @@ TEST(CompareSheet, ALineHasNoMap) {
     ASSERT_EQ(sheet.pictures.size(), 8u);
     EXPECT_FALSE(sheet.pictures[1].image.data.empty());
     EXPECT_TRUE(sheet.pictures[5].image.data.empty());
+}
+
+TEST(CompareSheet, FiguresKeepTheirOwnExposure) {
+    const std::vector<NamedLamp> lamps = named({"D65", "A"});
+    const Sheet plain = sheet_of(cloth(24, 30), lamps),
+                brighter = sheet_of(cloth(24, 30), lamps, 1),
+                all_brighter = sheet_of(cloth(24, 30), lamps, 1, 1);
+    ASSERT_EQ(plain.pictures.size(), 8u); // adapted, as a camera, maps, swatches
+    EXPECT_EQ(brighter.pictures[5].caption, plain.pictures[5].caption);
+    EXPECT_NE(all_brighter.pictures[5].caption, plain.pictures[5].caption);
+    EXPECT_EQ(brighter.pictures[7].marks.at(1).text, plain.pictures[7].marks.at(1).text);
+    EXPECT_NE(all_brighter.pictures[7].marks.at(1).text, plain.pictures[7].marks.at(1).text);
+    // Swatches are as bright as the pictures.
+    for (int c = 0; c < 3; ++c) {
+        const auto channel = static_cast<std::size_t>(c);
+        EXPECT_GT(brighter.pictures[7].image.data[channel], plain.pictures[7].image.data[channel]);
+        EXPECT_NEAR(brighter.pictures[7].image.data[channel],
+                    all_brighter.pictures[7].image.data[channel], 1e-4);
+    }
 }
 
 TEST(SmallerTransport, HasTheMeanOfSquares) {

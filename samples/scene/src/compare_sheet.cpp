@@ -46,15 +46,16 @@ std::string decimal(double value, int decimals) {
     return text.str();
 }
 
-/// The colour of a swatch: CIELAB beside a lamp's white, shown beside the display's.
-glm::dvec3 swatch_color(const glm::dvec3 &lab, const DisplayOptions &look) {
+/// The colour of a swatch: CIELAB beside a lamp's white, shown beside the display's as bright as in
+/// the pictures. \param stops exposure that the colour has in it
+glm::dvec3 swatch_color(const glm::dvec3 &lab, double stops, const DisplayOptions &look) {
     const glm::dvec3 xyz = xyz_of_lab(lab, srgb_white());
     Image one = Image::make(1, 1, {"X", "Y", "Z"});
     for (int c = 0; c < 3; ++c)
         one.data[static_cast<std::size_t>(c)] = static_cast<float>(xyz[c]);
     DisplayOptions shown = look;
     shown.adapt = Adaptation::none;
-    shown.exposure_stops = 0; // the report has it in its colours
+    shown.exposure_stops = look.exposure_stops - stops;
     const Image rgb = display(one, srgb_white(), shown);
     return {rgb.data[0], rgb.data[1], rgb.data[2]};
 }
@@ -105,8 +106,8 @@ std::string lamp_caption(const NamedLamp &lamp) {
 }
 
 CompareSheet::CompareSheet(std::vector<NamedLamp> lamps, const DisplayOptions &look,
-                           Observer observer)
-    : lamps_(std::move(lamps)), look_(look), observer_(observer) {
+                           Observer observer, double figure_stops)
+    : lamps_(std::move(lamps)), look_(look), observer_(observer), figure_stops_(figure_stops) {
     for (const NamedLamp &lamp : lamps_)
         captions_.push_back(lamp_caption(lamp));
     sheet_.columns = sheet_columns(lamps_.size());
@@ -151,7 +152,7 @@ void CompareSheet::add_pictures(const std::string &label, const SpectralImage &t
 
 void CompareSheet::add_maps(const SpectralImage &transport,
                             const std::vector<Lighting> &lightings) {
-    const CompareOptions options{.observer = observer_, .exposure_stops = look_.exposure_stops};
+    const CompareOptions options{.observer = observer_, .exposure_stops = figure_stops_};
     std::vector<SheetPicture> row{difference_legend(transport.width, transport.height)};
     row[0].caption = "CIEDE2000 of the adapted pictures";
     for (std::size_t i = 1; i < lightings.size(); ++i) {
@@ -188,7 +189,8 @@ void CompareSheet::add_swatches(std::span<const PartReport> parts, int width, in
             const auto observed =
                 std::find_if(part.observed.begin(), part.observed.end(),
                              [&](const ObservedPart &one) { return one.observer == observer_; });
-            const glm::dvec3 lab = observed->colors[lamp].lab, rgb = swatch_color(lab, look_);
+            const glm::dvec3 lab = observed->colors[lamp].lab,
+                             rgb = swatch_color(lab, figure_stops_, look_);
             for (int y = p * height; y < (p + 1) * height; ++y)
                 for (int x = 0; x < width; ++x)
                     for (int c = 0; c < 3; ++c)

@@ -90,6 +90,7 @@ struct PairReport {
 
 /// What a report says.
 struct ColorReport {
+    double exposure_stops = 0; ///< as in ReportOptions
     std::vector<std::string> lightings{};
     std::vector<PartReport> parts{};
     /// Of all cloths: the fabrics of each picture, its garment where it has no ids of fabrics

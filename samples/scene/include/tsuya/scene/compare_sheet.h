@@ -30,7 +30,11 @@ SpectralImage smaller_transport(const SpectralImage &transport, int side);
 class CompareSheet {
   public:
     /// \param lamps as picture_under has them; at least two
-    CompareSheet(std::vector<NamedLamp> lamps, const DisplayOptions &look, Observer observer);
+    /// \param look of the pictures
+    /// \param figure_stops exposure of the maps and of the colours of parts, whatever that of the
+    /// pictures is: L* = 100 is Y = 1 after it
+    CompareSheet(std::vector<NamedLamp> lamps, const DisplayOptions &look, Observer observer,
+                 double figure_stops = 0);
 
     /// \param label of its rows. \param parts of the report that are of this picture. Throws Error
     /// as picture_under.
@@ -51,6 +55,7 @@ class CompareSheet {
     std::vector<std::string> captions_{};
     DisplayOptions look_;
     Observer observer_;
+    double figure_stops_;
     Sheet sheet_{.columns = kSheetColumns};
     double most_out_of_gamut_ = 0;
 };
