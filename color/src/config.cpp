@@ -204,6 +204,9 @@ DisplayConfig DisplayConfig::load(const std::filesystem::path &path) {
 Image DisplayConfig::display(const Image &xyz, const std::string &lamp,
                              const DisplayOptions &options) const {
     check_display_options(options);
+    if (options.adapt != Adaptation::none && options.degree != 1)
+        throw Error({"the degree of adaptation is " + std::to_string(options.degree), "degree",
+                     "expected 1: the looks of a config adapt fully"});
     const std::string look = look_name(lamp, options.adapt);
     if (const auto known = looks();
         !look.empty() && std::find(known.begin(), known.end(), look) == known.end())

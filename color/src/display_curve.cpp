@@ -9,8 +9,12 @@ namespace OCIO = OCIO_NAMESPACE;
 namespace tsuya {
 
 const DisplayCurve &DisplayCurve::of(const std::string &view) {
-    static const DisplayCurve plain("Plain"), soft("Soft");
-    return view == "Soft" ? soft : plain;
+    if (view == "Soft") {
+        static const DisplayCurve soft("Soft");
+        return soft;
+    }
+    static const DisplayCurve plain("Plain");
+    return plain;
 }
 
 DisplayCurve::DisplayCurve(const std::string &view) {

@@ -56,16 +56,49 @@ class ManifestReader {
         expect('"');
         std::string text;
         for (char c = next(); c != '"'; c = next())
-            text += c == '\\' ? escaped() : c;
+            if (c == '\\')
+                append_escaped(text);
+            else
+                text += c;
         return text;
     }
-    /// Of the escapes that have a letter, those of control characters are shown as a blank.
-    char escaped() {
+    /// Control characters are shown as a blank.
+    void append_escaped(std::string &text) {
         const char c = next();
         if (c == 'u')
-            for (int i = 0; i < 4; ++i)
-                next();
-        return c == '"' || c == '\\' || c == '/' ? c : ' ';
+            append_utf8(text, code_point());
+        else
+            text += c == '"' || c == '\\' || c == '/' ? c : ' ';
+    }
+    std::uint32_t code_unit() {
+        std::string hex;
+        for (int i = 0; i < 4; ++i)
+            hex += next();
+        return number(hex);
+    }
+    /// Of `XXXX` after `\u`, or of two that are surrogates; a surrogate alone is U+FFFD.
+    std::uint32_t code_point() {
+        const std::uint32_t first = code_unit();
+        if (first < kHighSurrogate || first > kLastSurrogate)
+            return first;
+        if (first >= kLowSurrogate || !rest_.starts_with("\\u"))
+            return kReplacement;
+        const std::string_view after = rest_;
+        rest_.remove_prefix(2);
+        const std::uint32_t second = code_unit();
+        if (second >= kLowSurrogate && second <= kLastSurrogate)
+            return 0x10000 + ((first - kHighSurrogate) << 10) + (second - kLowSurrogate);
+        rest_ = after;
+        return kReplacement;
+    }
+    static void append_utf8(std::string &text, std::uint32_t code) {
+        const auto add = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
+        if (code < 0x80)
+            return add(code < 0x20 || code == 0x7f ? ' ' : code);
+        const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3; // bytes of six bits
+        add(((0xff00u >> (more + 1)) & 0xffu) | code >> (6 * more));
+        for (int i = more - 1; i >= 0; --i)
+            add(0x80 | ((code >> (6 * i)) & 0x3f));
     }
     std::uint32_t number(const std::string &hex) const {
         std::uint32_t value = 0;
@@ -75,6 +108,9 @@ class ManifestReader {
             fail();
         return value;
     }
+
+    static constexpr std::uint32_t kHighSurrogate = 0xd800, kLowSurrogate = 0xdc00,
+                                   kLastSurrogate = 0xdfff, kReplacement = 0xfffd;
 
     std::string_view rest_;
     std::string layer_;

@@ -60,18 +60,6 @@ double metamerism_additive(const ClothPair &reference_lab, const ClothPair &test
                             test_lab.second - (reference_lab.second - reference_lab.first));
 }
 
-std::string to_string(MetamerismCorrection correction) {
-    switch (correction) {
-    case MetamerismCorrection::additive:
-        return "additive";
-    case MetamerismCorrection::spectral:
-        return "spectral";
-    case MetamerismCorrection::multiplicative:
-        break;
-    }
-    return "multiplicative";
-}
-
 double metamerism_index(const Spectrum &first, const Spectrum &second, const Spectrum &reference,
                         const Spectrum &test, const MetamerismOptions &options) {
     const Observer observer = options.observer;

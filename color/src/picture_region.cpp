@@ -69,10 +69,10 @@ void add_named(const SpectralImage &image, std::size_t aov, std::string_view kin
             if (rank[1] > 0)
                 covered[std::bit_cast<std::uint32_t>(rank[0])].emplace_back(pixel, rank[1]);
         }
-    std::map<std::string, std::vector<std::size_t>> sorted;
+    std::multimap<std::string, std::vector<std::size_t>> sorted; // two parts may share a name
     for (const auto &[bits, pixels] : covered)
         if (const auto name = names.find(bits); name != names.end())
-            sorted[name->second] = pixels_of(pixels);
+            sorted.emplace(name->second, pixels_of(pixels));
     for (auto &[name, pixels] : sorted)
         if (!pixels.empty())
             regions.push_back({std::string(kind), name, std::move(pixels)});

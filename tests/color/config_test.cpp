@@ -313,6 +313,10 @@ TEST(Config, RefusesWrongInput) {
     test::expect_problem(
         [&] { display(xyz, srgb_white(), {.adapt = Adaptation::cat02, .degree = 1.5}); }, "degree",
         "expected 0 to 1");
+    test::expect_problem(
+        [&] { config.display(xyz, "HP4", {.adapt = Adaptation::cat02, .degree = 0.5}); }, "degree",
+        "expected 1");
+    EXPECT_NO_THROW(config.display(xyz, "HP4", {.degree = 0.5})); // nothing to adapt by a degree
     test::expect_problem([&] { config.display(xyz, "D65", {.view = "soft"}); }, "view",
                          "did you mean Soft?");
     test::expect_problem([&] { config.display(xyz, "D65", {.exposure_stops = NAN}); }, "exposure",

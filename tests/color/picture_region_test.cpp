@@ -42,6 +42,32 @@ TEST(PictureRegion, HasThePixelsThatAPartFills) {
     EXPECT_EQ(regions[2].pixels, (std::vector<std::size_t>{0, 1}));
 }
 
+TEST(PictureRegion, ReadsEscapedNames) {
+    const auto names_of = [](const std::string &name) {
+        SpectralImage image = with_ids();
+        image.metadata["cryptomatte/1234567/manifest"] = "{\"" + name + "\":\"41aabbcc\"}";
+        return picture_regions(image).at(1).name;
+    };
+    EXPECT_EQ(names_of(R"(\u0041\u00e9\u7d39\ud83d\udc57)"), "A\u00e9\u7d39\U0001f457");
+    EXPECT_EQ(names_of(R"(\u07FFa\u0800)"), "\u07ffa\u0800");
+    EXPECT_EQ(names_of(R"(a\nb\u0009c\/d)"), "a b c/d");
+    // Half of a pair
+    EXPECT_EQ(names_of(R"(\ud83da)"), "\ufffda");
+    EXPECT_EQ(names_of(R"(\ud83d\u0041)"), "\ufffdA");
+    EXPECT_EQ(names_of(R"(\udc57)"), "\ufffd");
+}
+
+TEST(PictureRegion, KeepsPartsOfOneName) {
+    SpectralImage image = with_ids();
+    image.metadata["cryptomatte/1234567/manifest"] = R"({"silk":"3f0a1b2c","silk":"41aabbcc"})";
+    const std::vector<PictureRegion> regions = picture_regions(image);
+    ASSERT_EQ(regions.size(), 3u);
+    EXPECT_EQ(regions[1].name, "silk");
+    EXPECT_EQ(regions[1].pixels, (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(regions[2].name, "silk");
+    EXPECT_EQ(regions[2].pixels, (std::vector<std::size_t>{2}));
+}
+
 TEST(PictureRegion, LeavesOutWhatIsNotFinite) {
     SpectralImage image = with_ids();
     image.pixel(0, 0, 0)[3] = std::numeric_limits<float>::quiet_NaN();
@@ -62,7 +88,8 @@ TEST(PictureRegion, TheGarmentIsWhatItsCoverageSays) {
 }
 
 TEST(PictureRegion, RefusesIdsWithoutNames) {
-    for (const char *manifest : {"", "{", "{\"a\":\"xyz\"}", "{\"a\" \"12\"}", "{\"a\":\"12\""}) {
+    for (const char *manifest : {"", "{", "{\"a\":\"xyz\"}", "{\"a\" \"12\"}", "{\"a\":\"12\"",
+                                 R"({"\u00g1":"12"})", R"({"\u00)"}) {
         SpectralImage image = with_ids();
         image.metadata["cryptomatte/1234567/manifest"] = manifest;
         test::expect_problem([&] { picture_regions(image); }, "CryptoFabric", "manifest");

@@ -56,10 +56,10 @@ struct DisplayOptions {
 };
 
 /// Scene-referred colour spaces: `CIE XYZ D65` (the reference), `Linear Rec.709`, `Linear
-/// Rec.2020`, `Linear Display P3`, `ACES2065-1`, `ACEScg`, `Raw`; displays and views as above; for
-/// each lamp the looks `<lamp> bradford` and `<lamp> cat02`, which adapt a picture in CIE XYZ from
-/// the lamp to D65, without those to whose white no eye adapts, as to that of a single line; the
-/// roles of interchange.
+/// Rec.2020`, `Linear Display P3`, `ACES2065-1`, `ACEScg`, `ACEScct`, `Raw`; displays and views as
+/// above; for each lamp the looks `<lamp> bradford` and `<lamp> cat02`, which adapt a picture in
+/// CIE XYZ from the lamp to D65, without those to whose white no eye adapts, as to that of a single
+/// line; the roles of interchange.
 class DisplayConfig {
   public:
     /// Throws Error for an empty or repeated lamp name or a white without Y > 0.
@@ -75,7 +75,8 @@ class DisplayConfig {
     /// Display-encoded R, G, B in [0, 1] of a picture with channels X, Y, Z (as relight makes it)
     /// under the lamp, by its look. A pixel that is not finite becomes NaN in all channels. Rows
     /// run in parallel. Throws Error for an unknown lamp, display or view, a picture without X, Y,
-    /// Z, or an exposure that is not finite.
+    /// Z, an exposure that is not finite, or a degree of adaptation other than 1: looks adapt
+    /// fully.
     Image display(const Image &xyz, const std::string &lamp,
                   const DisplayOptions &options = {}) const;
 

@@ -3,8 +3,6 @@
 /// Two cloths that look alike under one lamp and part under another, and one cloth that does not
 /// keep its colour.
 
-#include <string>
-
 #include <glm/vec3.hpp>
 
 #include "tsuya/color/difference.h"
@@ -35,9 +33,6 @@ double metamerism_additive(const ClothPair &reference_lab, const ClothPair &test
 /// part of the first one's reflectance that the reference lamp and the observer see, by the
 /// decomposition of Cohen and Kappauf; black cloths need no exception there.
 enum class MetamerismCorrection { multiplicative, additive, spectral };
-
-/// `multiplicative`, `additive`, `spectral`.
-std::string to_string(MetamerismCorrection correction);
 
 /// How an index is formed.
 struct MetamerismOptions {
