@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "channels.h"
 #include "icc_profile.h"
+#include "picture_errors.h"
 #include "pictures.h"
 #include "rows.h"
 #include "tsuya/sdk/detail/counted.h"
@@ -30,28 +32,26 @@ template <class Sample> std::vector<Sample> quantize(const Image &image) {
     return samples;
 }
 
-/// A format of coded pictures.
-struct Format {
-    std::string_view ending, name; ///< and OpenImageIO's name of it
-    bool sixteen_bits, alpha, cicp;
-};
-constexpr std::array kFormats{
-    Format{".png", "png", true, true, true}, Format{".tif", "tiff", true, true, false},
-    Format{".tiff", "tiff", true, true, false}, Format{".jpg", "jpeg", false, false, false},
-    Format{".jpeg", "jpeg", false, false, false}};
+enum class Format { png, tiff, jpeg };
 
-const Format *format_of(const std::filesystem::path &path) {
-    const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const Format &format) {
-        return path.extension() == format.ending;
-    });
-    return found == kFormats.end() ? nullptr : &*found;
+/// Endings of file names.
+constexpr std::array<std::pair<std::string_view, Format>, 5> kEndings{{{".png", Format::png},
+                                                                       {".tif", Format::tiff},
+                                                                       {".tiff", Format::tiff},
+                                                                       {".jpg", Format::jpeg},
+                                                                       {".jpeg", Format::jpeg}}};
+
+/// Throws Error for an ending of none.
+Format format_of(const std::filesystem::path &path) {
+    for (const auto &[ending, format] : kEndings)
+        if (path.extension() == ending)
+            return format;
+    throw Error({"no picture has this ending", path.string(), "expected .png, .tif or .jpg"});
 }
 
 /// What a file says of the display. Primaries 9, curve 16 or 18, RGB, all codes. [Png3]
-CodedFile coded_file(const Format &format, const PictureFileOptions &options) {
-    CodedFile file{.format = std::string(format.name),
-                   .bits = options.bits,
-                   .srgb = options.display == "sRGB"};
+CodedFile coded_file(const PictureFileOptions &options) {
+    CodedFile file{.bits = options.bits, .srgb = options.display == "sRGB"};
     if (options.display.starts_with("Rec.2100"))
         file.cicp = {9, static_cast<std::uint8_t>(options.display == "Rec.2100-PQ" ? 16 : 18), 0,
                      1};
@@ -65,7 +65,7 @@ void check_display_image(const Image &image, const std::string &where) {
     const std::size_t channels = image.channels.size();
     if (channels != 1 && channels != 3 && channels != 4)
         throw Error({"the picture has " + detail::counted(channels, "channel"), where,
-                     "expected 1 (grey), 3 (RGB) or 4 (RGBA) for a picture"});
+                     "expected 1 (grey), 3 (RGB) or 4 (RGBA)"});
     const auto nan =
         std::find_if(image.data.begin(), image.data.end(), [](float v) { return std::isnan(v); });
     if (nan == image.data.end())
@@ -83,24 +83,22 @@ void check_pictures() { picture_writer(); }
 
 std::vector<std::string> picture_file_endings() {
     std::vector<std::string> endings;
-    for (const Format &format : kFormats)
-        endings.emplace_back(format.ending);
+    for (const auto &[ending, format] : kEndings)
+        endings.emplace_back(ending);
     return endings;
 }
 
 void check_picture_file(const std::filesystem::path &path, const PictureFileOptions &options,
                         bool alpha) {
-    const Format *const format = format_of(path);
+    const Format format = format_of(path);
     const std::string where = path.string();
-    if (!format)
-        throw Error({"no picture has this ending", where, "expected .png, .tif or .jpg"});
-    const std::string name = format->name == "png" ? "a PNG" : "such a file";
-    if (options.bits != 8 && !(options.bits == 16 && format->sixteen_bits))
+    const std::string name = format == Format::png ? "a PNG" : "such a file";
+    if (options.bits != 8 && !(options.bits == 16 && format != Format::jpeg))
         throw Error({name + " has no samples of " + std::to_string(options.bits) + " bits", where,
-                     format->sixteen_bits ? "expected 8 or 16" : "expected 8, or a PNG or TIFF"});
-    if (alpha && !format->alpha)
+                     format == Format::jpeg ? "expected 8, or a PNG or TIFF" : "expected 8 or 16"});
+    if (alpha && format == Format::jpeg)
         throw Error({"a JPEG has no alpha", where, "expected a PNG or TIFF"});
-    if (options.display.starts_with("Rec.2100") && !format->cicp)
+    if (options.display.starts_with("Rec.2100") && format != Format::png)
         throw Error(
             {"such a file cannot say that it is for " + options.display, where, "expected a PNG"});
 }
@@ -109,12 +107,12 @@ void write_picture(const std::filesystem::path &path, const Image &image,
                    const PictureFileOptions &options) {
     check_display_image(image, path.string());
     check_picture_file(path, options, image.channels.size() == 4);
-    const CodedFile file = coded_file(*format_of(path), options);
+    const CodedFile file = coded_file(options);
     const auto write = [&](const void *samples) {
-        if (file.format == "png")
+        if (format_of(path) == Format::png)
             picture_writer().write_png(path, image, file, samples);
         else
-            picture_reader().write_coded(path, image, file, samples);
+            picture_reader().write_tiff_or_jpeg(path, image, file, samples);
     };
     if (options.bits == 8)
         write(quantize<std::uint8_t>(image).data());
@@ -123,9 +121,7 @@ void write_picture(const std::filesystem::path &path, const Image &image,
 }
 
 void write_png(const std::filesystem::path &path, const Image &image, int bits) {
-    check_display_image(image, path.string());
-    if (path.extension() != ".png")
-        throw Error({"the file does not end in .png", path.string(), "expected NAME.png"});
+    check_extension(path, ".png");
     write_picture(path, image, {.bits = bits});
 }
 
@@ -136,22 +132,15 @@ void write_exr(const std::filesystem::path &path, const Image &image, const ExrO
     OutputPicture picture{.width = image.width,
                           .height = image.height,
                           .channels = image.channels,
-                          .samples = options.samples};
+                          .samples = options.samples,
+                          .primaries = options.primaries};
     for (const auto &[key, value] : options.metadata)
         picture.attributes["tsuya:meta:" + key] = value;
-    if (options.primaries) {
-        const RgbPrimaries &p = *options.primaries;
-        PictureColours colours;
-        auto next = colours.chromaticities.begin();
-        for (const glm::dvec2 &xy : {p.red, p.green, p.blue, p.white})
-            for (const double v : {xy.x, xy.y})
-                *next++ = static_cast<float>(v);
-        colours.neutral = {colours.chromaticities[6], colours.chromaticities[7]};
-        picture.colours = colours;
-    }
+    if (options.primaries)
+        picture.neutral = options.primaries->white;
     const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
     picture.fill_row = [&](int y, float *out) { std::copy_n(image.pixel(0, y), row, out); };
-    picture_writer().write_exr(path, picture);
+    picture_writer().write_exr(path, {&picture, 1});
 }
 
 } // namespace tsuya

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Picture files, behind two modules that are loaded when the first picture is touched. That which
-/// writes them stands on few libraries. That which reads them goes through OpenImageIO, which
-/// stands on 260, and they take a fifth of a second to load.
+/// Picture files, behind two modules, each loaded when it is first used. The writer of EXR and PNG
+/// needs few libraries. The reader, which also writes TIFF and JPEG, needs OpenImageIO with its 260
+/// libraries, which take a fifth of a second to load.
 
 #include <array>
 #include <cstdint>
@@ -17,6 +17,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "tsuya/color/camera_frame.h"
 #include "tsuya/color/image_file.h"
 
@@ -25,12 +27,6 @@ namespace tsuya {
 /// Where a part of a picture lies: its upper left corner, and the size of the whole.
 struct PicturePlace {
     int x = 0, y = 0, width = 0, height = 0;
-};
-
-/// What the colours R, G, B of a picture are.
-struct PictureColours {
-    std::array<float, 8> chromaticities{}; ///< x, y of red, green, blue and white
-    std::array<float, 2> neutral{};        ///< x, y of what is to be seen as neutral
 };
 
 /// A picture to write, row by row; or a part of a file of several.
@@ -45,14 +41,14 @@ struct OutputPicture {
     /// Number of the channel from which on all are float32: those before are as `samples` says
     std::size_t exact_from = std::numeric_limits<std::size_t>::max();
     std::map<std::string, std::string> attributes{};
-    std::optional<PictureColours> colours{};
+    std::optional<RgbPrimaries> primaries{}; ///< of R, G, B
+    std::optional<glm::dvec2> neutral{};     ///< x, y of what is to be seen as neutral
     /// Fills one row: width x channels floats, interleaved.
     std::function<void(int y, float *row)> fill_row{};
 };
 
 /// What a file of coded samples is.
 struct CodedFile {
-    std::string format{};               ///< OpenImageIO's name: png, tiff, jpeg
     int bits = 8;                       ///< of a sample
     std::string icc{};                  ///< the profile; empty: none
     std::array<std::uint8_t, 4> cicp{}; ///< of a PNG; all 0: not stated [Png3]
@@ -103,11 +99,9 @@ struct TextPlace {
 class PictureWriter {
   public:
     virtual ~PictureWriter() = default;
+    /// One part or more.
     virtual void write_exr(const std::filesystem::path &path,
-                           const OutputPicture &picture) const = 0;
-    /// A file of two or more parts.
-    virtual void write_exr_parts(const std::filesystem::path &path,
-                                 std::span<const OutputPicture> parts) const = 0;
+                           std::span<const OutputPicture> parts) const = 0;
     /// A PNG. Values are rows of width x channels samples.
     virtual void write_png(const std::filesystem::path &path, const Image &shape,
                            const CodedFile &file, const void *samples) const = 0;
@@ -133,9 +127,9 @@ class PictureReader {
     /// A PNG in memory. \param name for errors
     virtual EncodedPicture decode_png(std::string_view bytes, const std::string &name) const = 0;
     virtual std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const = 0;
-    /// A TIFF or JPEG. Values are rows of width x channels samples.
-    virtual void write_coded(const std::filesystem::path &path, const Image &shape,
-                             const CodedFile &file, const void *samples) const = 0;
+    /// A TIFF or JPEG, as the path ends. Values are rows of width x channels samples.
+    virtual void write_tiff_or_jpeg(const std::filesystem::path &path, const Image &shape,
+                                    const CodedFile &file, const void *samples) const = 0;
 };
 
 /// The modules, loaded at the first call. Throw Error where that fails.

@@ -10,7 +10,7 @@
 #include "spectral_layout.h"
 #include "tsuya/color/image_file.h"
 #include "tsuya/color/relight.h"
-#include "tsuya/color/srgb.h"
+#include "tsuya/color/shown_picture.h"
 #include "tsuya/sdk/error.h"
 
 namespace tsuya {
@@ -18,7 +18,7 @@ namespace {
 
 using namespace layout;
 
-constexpr double kMostHalf = 65504;
+constexpr float kMostHalf = 65504;
 
 /// What a half holds: all that is finite and not above its greatest number; and the greatest value
 /// of each light group so far above its smallest step that dark pixels are still told apart.
@@ -29,7 +29,7 @@ bool half_can_hold(const SpectralImage &image) {
         float peak = 0;
         for (std::size_t i = g * values; i < (g + 1) * values; ++i)
             peak = std::max(peak, std::abs(image.transport[i]));
-        if (!(peak <= static_cast<float>(kMostHalf)) || (peak > 0 && peak < kLeastPeak))
+        if (!(peak <= kMostHalf) || (peak > 0 && peak < kLeastPeak))
             return false;
     }
     return true;
@@ -46,44 +46,21 @@ float nearest_half(float value) {
     return std::bit_cast<float>(bits & ~kDropped);
 }
 
-/// The picture that every viewer shows.
-struct ViewerPicture {
-    Image xyz{};
-    glm::dmat3 rgb_from_xyz{1.0};
-    PictureColours colours{};
-    std::string lamp{};
-};
-
-std::array<float, 2> as_floats(const glm::dvec2 &xy) {
-    return {static_cast<float>(xy.x), static_cast<float>(xy.y)};
-}
-
-ViewerPicture viewer_picture(const SpectralImage &image, std::vector<NamedLamp> lamps) {
+/// What lights the picture that every viewer shows: `lamps`, or where there are none, D65 or E.
+/// Called as `tsuya:rgb.lamp` says it.
+Lighting viewer_lighting(const SpectralImage &image, std::vector<NamedLamp> lamps) {
     if (lamps.empty()) {
         const std::string name = image.emissive ? "E" : "D65";
         lamps = {{.name = name, .spectrum = lamp(name)}};
     }
-    ViewerPicture picture{.rgb_from_xyz = srgb_from_xyz()};
-    std::vector<Spectrum> spectra;
-    RelightOptions options;
-    for (std::size_t g = 0; g < lamps.size(); ++g) {
-        spectra.push_back(lamps[g].spectrum);
-        options.group_scale.push_back(lamps[g].factor);
-        picture.lamp += (g > 0 ? ", " : "") +
-                        (lamps.size() > 1 && g < image.groups.size() ? image.groups[g] + "=" : "") +
-                        lamps[g].name;
-    }
-    if (lamps.size() == 1)
-        options.group_scale.assign(image.groups.size(), lamps[0].factor);
-    picture.xyz = relight(image, spectra, options);
-    const glm::dmat3 xyz = xyz_from_srgb();
-    std::array<float, 8> &xy = picture.colours.chromaticities;
-    for (int c = 0; c < 4; ++c) {
-        const auto of = as_floats(chromaticity(c < 3 ? xyz[c] : srgb_white()));
-        std::copy(of.begin(), of.end(), xy.begin() + 2 * c);
-    }
-    picture.colours.neutral = as_floats(chromaticity(white_of(spectra[0])));
-    return picture;
+    Lighting lighting;
+    for (std::size_t g = 0; g < lamps.size(); ++g)
+        lighting.name +=
+            (g > 0 ? ", " : "") +
+            (lamps.size() > 1 && g < image.groups.size() ? image.groups[g] + "=" : "") +
+            lamps[g].name;
+    lighting.lamps = std::move(lamps);
+    return lighting;
 }
 
 /// Where the pixels of a picture that are written lie.
@@ -133,25 +110,24 @@ std::map<std::string, std::string> description(const SpectralImage &image,
     return attributes;
 }
 
-OutputPicture rgb_part(const SpectralImage &image, const ViewerPicture &picture,
+/// \param picture the image under the lighting, as linear_picture makes it
+OutputPicture rgb_part(const SpectralImage &image, const Image &picture, const Lighting &lighting,
                        SampleType samples) {
     OutputPicture part = part_of(image, kPicturePart, SampleType::half);
-    part.channels = {"R", "G", "B"};
-    if (image.alpha)
-        part.channels.emplace_back(kAlphaChannel);
+    part.channels = picture.channels;
     if (samples == SampleType::float32)
         part.exact_from = 3; // a colour is to be looked at, alpha to be reckoned with
-    part.colours = picture.colours;
-    part.attributes = description(image, picture.lamp);
+    part.primaries = kRec709;
+    part.neutral = chromaticity(white_of(lighting.lamps[0].spectrum));
+    part.attributes = description(image, lighting.name);
     part.fill_row = [&](int row, float *out) {
         const Window window(image);
         for (int x = window.x0; x < window.x1; ++x) {
-            const float *const xyz = picture.xyz.pixel(x, window.y0 + row);
-            const glm::dvec3 rgb = picture.rgb_from_xyz * glm::dvec3(xyz[0], xyz[1], xyz[2]);
+            const float *const pixel = picture.pixel(x, window.y0 + row);
             for (int c = 0; c < 3; ++c)
-                *out++ = static_cast<float>(std::clamp(rgb[c], -kMostHalf, kMostHalf));
+                *out++ = std::clamp(pixel[c], -kMostHalf, kMostHalf);
             if (image.alpha)
-                *out++ = *image.alpha->pixel(x, window.y0 + row);
+                *out++ = pixel[3];
         }
     };
     return part;
@@ -201,13 +177,14 @@ void write_spectral_exr(const std::filesystem::path &path, const SpectralImage &
                         const SpectralExrOptions &options) {
     check_spectral_image(image, path.string());
     const SampleType samples = half_can_hold(image) ? options.samples : SampleType::float32;
-    const ViewerPicture picture = viewer_picture(image, options.lamps);
-    std::vector<OutputPicture> parts{rgb_part(image, picture, samples)};
+    const Lighting lighting = viewer_lighting(image, options.lamps);
+    const Image picture = linear_picture(image, lighting);
+    std::vector<OutputPicture> parts{rgb_part(image, picture, lighting, samples)};
     for (std::size_t g = 0; g < image.groups.size(); ++g)
         parts.push_back(group_part(image, g, samples));
     for (std::size_t i = 0; i < image.aovs.size(); ++i)
         parts.push_back(aov_part(image, i));
-    picture_writer().write_exr_parts(path, parts);
+    picture_writer().write_exr(path, parts);
 }
 
 } // namespace tsuya

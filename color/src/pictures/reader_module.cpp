@@ -23,9 +23,9 @@ class OiioReader final : public PictureReader {
     std::unique_ptr<FrameFile> open_frame(const std::filesystem::path &path) const override {
         return open_frame_file(path);
     }
-    void write_coded(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
-                     const void *samples) const override {
-        write_coded_samples(path, shape, file, samples);
+    void write_tiff_or_jpeg(const std::filesystem::path &path, const Image &shape,
+                            const CodedFile &file, const void *samples) const override {
+        write_tiff_or_jpeg_samples(path, shape, file, samples);
     }
 };
 

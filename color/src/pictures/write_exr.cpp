@@ -19,6 +19,7 @@
 #include <ImfThreading.h>
 #include <tbb/task_arena.h>
 
+#include "picture_errors.h"
 #include "pictures/writer_parts.h"
 #include "rows.h"
 #include "tsuya/sdk/error.h"
@@ -76,6 +77,10 @@ Imath::Box2i data_window(const OutputPicture &picture) {
     return {corner, corner + Imath::V2i(picture.width - 1, picture.height - 1)};
 }
 
+Imath::V2f as_floats(const glm::dvec2 &xy) {
+    return {static_cast<float>(xy.x), static_cast<float>(xy.y)};
+}
+
 Imf::Header header_of(const OutputPicture &picture) {
     const Imath::Box2i data = data_window(picture);
     const Imath::Box2i whole =
@@ -90,11 +95,11 @@ Imf::Header header_of(const OutputPicture &picture) {
         header.setName(picture.part);
         header.setType(Imf::SCANLINEIMAGE);
     }
-    if (picture.colours) {
-        const auto &[rx, ry, gx, gy, bx, by, wx, wy] = picture.colours->chromaticities;
-        Imf::addChromaticities(header, {{rx, ry}, {gx, gy}, {bx, by}, {wx, wy}});
-        Imf::addAdoptedNeutral(header, {picture.colours->neutral[0], picture.colours->neutral[1]});
-    }
+    if (const auto &p = picture.primaries)
+        Imf::addChromaticities(header, {as_floats(p->red), as_floats(p->green), as_floats(p->blue),
+                                        as_floats(p->white)});
+    if (picture.neutral)
+        Imf::addAdoptedNeutral(header, as_floats(*picture.neutral));
     for (const auto &[key, value] : picture.attributes)
         header.insert(key, Imf::StringAttribute(value));
     return header;
@@ -192,7 +197,7 @@ void encode(std::span<const OutputPicture> parts, Bytes &bytes) {
 
 } // namespace
 
-void write_exr_parts(const std::filesystem::path &path, std::span<const OutputPicture> parts) {
+void write_exr_file(const std::filesystem::path &path, std::span<const OutputPicture> parts) {
     check_extension(path, ".exr");
     for (const OutputPicture &part : parts)
         check_names(part.channels, path);
@@ -207,10 +212,6 @@ void write_exr_parts(const std::filesystem::path &path, std::span<const OutputPi
         fail_encoding(path, error.what());
     }
     write_file(path, bytes.data());
-}
-
-void write_exr_picture(const std::filesystem::path &path, const OutputPicture &picture) {
-    write_exr_parts(path, {&picture, 1});
 }
 
 } // namespace tsuya

@@ -7,8 +7,8 @@
 
 #include <png.h>
 
+#include "picture_errors.h"
 #include "pictures/writer_parts.h"
-#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
 namespace tsuya {
@@ -85,7 +85,6 @@ bool encode(const Image &shape, const CodedFile &file, const void *samples, png_
 
 void write_png_samples(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
                        const void *samples) {
-    check_extension(path, ".png");
     Result result;
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, &result, keep_failure, nullptr);

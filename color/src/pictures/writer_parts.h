@@ -6,18 +6,12 @@
 
 namespace tsuya {
 
-void write_exr_picture(const std::filesystem::path &path, const OutputPicture &picture);
-void write_exr_parts(const std::filesystem::path &path, std::span<const OutputPicture> parts);
+void write_exr_file(const std::filesystem::path &path, std::span<const OutputPicture> parts);
 void write_png_samples(const std::filesystem::path &path, const Image &shape, const CodedFile &file,
                        const void *samples);
 std::string deflate_bytes(std::string_view bytes);
 std::array<int, 2> size_of_text(const std::string &text, int size, const std::string &font);
 void draw_text(Image &image, const std::string &text, const TextPlace &place,
                const std::string &font);
-
-/// Throws Error unless a path has the extension of a format.
-void check_extension(const std::filesystem::path &path, const char *extension);
-/// The error of a picture that a library refuses.
-[[noreturn]] void fail_encoding(const std::filesystem::path &path, const std::string &cause);
 
 } // namespace tsuya

@@ -3,9 +3,9 @@
 /// Picture files. A file appears under its name only when it is complete; a failed write leaves
 /// nothing behind.
 ///
-/// OpenImageIO is in a module, `libtsuya_pictures.so`, that is loaded when the first picture is
-/// touched; color/README.md says where it is looked for. Without it every function that touches a
-/// file throws Error.
+/// Two modules read and write them, each loaded when it is first used: `libtsuya_picture_writer.so`
+/// writes EXR and PNG, `libtsuya_picture_reader.so` reads all, and writes TIFF and JPEG.
+/// color/README.md says where they are looked for. A function whose module is missing throws Error.
 
 #include <filesystem>
 #include <map>

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -11,9 +12,9 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "picture_errors.h"
 #include "pictures/oiio_input.h"
 #include "pictures/reader_parts.h"
-#include "tsuya/sdk/error.h"
 #include "tsuya/sdk/file.h"
 
 namespace tsuya {
@@ -41,18 +42,20 @@ class MemoryFile {
 /// where the last bytes of a file do not fit on the disk.
 class Encoder {
   public:
-    /// `format` is OpenImageIO's name of it.
-    Encoder(std::filesystem::path path, const std::string &format)
-        : path_(std::move(path)), output_(nullptr) {
+    explicit Encoder(std::filesystem::path path) : path_(std::move(path)), output_(nullptr) {
         use_threads_of_arena();
-        if (format == "tiff")
+        output_ = OIIO::ImageOutput::create(path_.extension().string().substr(1));
+        if (!output_)
+            fail_encoding(path_, one_line(OIIO::geterror()));
+        if (is_tiff())
             file_.emplace();
-        output_ = OIIO::ImageOutput::create(format);
-        if (!output_ || (!file_ && !output_->set_ioproxy(&bytes_)))
-            fail(OIIO::geterror());
+        else
+            check(output_->set_ioproxy(&bytes_));
     }
 
-    void write(const OIIO::ImageSpec &spec, const void *rows) {
+    void write(OIIO::ImageSpec spec, const void *rows) {
+        if (!is_tiff())
+            spec.attribute("CompressionQuality", 95);
         check(output_->open(file_ ? file_->path() : path_.string(), spec));
         check(output_->write_scanlines(0, spec.height, 0, spec.format, rows));
         check(output_->close());
@@ -64,13 +67,10 @@ class Encoder {
     }
 
   private:
+    bool is_tiff() const { return std::string_view(output_->format_name()) == "tiff"; }
     void check(bool good) const {
         if (!good)
-            fail(output_->geterror());
-    }
-    [[noreturn]] void fail(const std::string &cause) const {
-        throw Error({"cannot encode the picture: " + one_line(cause), path_.string(),
-                     "expected a picture that the format can hold"});
+            fail_encoding(path_, one_line(output_->geterror()));
     }
 
     std::filesystem::path path_;
@@ -81,8 +81,8 @@ class Encoder {
 
 } // namespace
 
-void write_coded_samples(const std::filesystem::path &path, const Image &shape,
-                         const CodedFile &file, const void *samples) {
+void write_tiff_or_jpeg_samples(const std::filesystem::path &path, const Image &shape,
+                                const CodedFile &file, const void *samples) {
     const OIIO::TypeDesc type = file.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(shape.width, shape.height, static_cast<int>(shape.channels.size()), type);
     if (file.srgb)
@@ -92,9 +92,7 @@ void write_coded_samples(const std::filesystem::path &path, const Image &shape,
         spec.attribute("ICCProfile",
                        OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(file.icc.size())),
                        file.icc.data());
-    if (file.format == "jpeg")
-        spec.attribute("CompressionQuality", 95);
-    Encoder(path, file.format).write(spec, samples);
+    Encoder(path).write(std::move(spec), samples);
 }
 
 } // namespace tsuya
