@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -183,6 +185,85 @@ TEST(SpectralFile, ChannelsHaveLayoutNames) {
     EXPECT_EQ(names[1], "T.409,677nm");
     EXPECT_EQ(channel_names({.count = 2}, false, true)[1], "S0.700,000nm");
     EXPECT_EQ(channel_names({.count = 16}, true)[15], "T.depth.15");
+}
+
+TEST(SpectralFile, RefusesWrongFiles) {
+    const test::Folder folder;
+    const auto absent = folder / "absent.exr";
+    test::expect_problem([&] { read_spectral_exr(absent); }, absent.string(), "no such file");
+    const auto text = folder.write("text.exr", "silk");
+    test::expect_problem([&] { read_spectral_exr(text); }, text.string(), "cannot read");
+    const auto png = folder / "p.png";
+    write_png(png, ramp(8, 8, {"R", "G", "B"}));
+    test::expect_problem([&] { read_spectral_exr(png); }, png.string(), "no spectral picture");
+    const auto plain = folder / "plain.exr";
+    write_exr(plain, ramp(8, 8, {"R", "G", "B"}));
+    test::expect_problem([&] { read_spectral_exr(plain); }, plain.string(), "no spectral picture");
+    const auto nowhere = folder / "no/where.exr";
+    test::expect_problem([&] { write_spectral_exr(nowhere, some_transport()); }, nowhere.string(),
+                         "folder");
+}
+
+TEST(SpectralFile, RefusesDamagedFiles) {
+    const test::Folder folder;
+    const auto whole = folder / "whole.exr";
+    write_spectral_exr(whole, some_transport());
+    std::ifstream in(whole, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    for (const double part : {0.02, 0.3, 0.6, 0.99}) {
+        const auto cut = folder.write(
+            "cut.exr",
+            bytes.substr(0, static_cast<std::size_t>(part * static_cast<double>(bytes.size()))));
+        test::expect_problem([&] { read_spectral_exr(cut); }, cut.string(), "cannot read");
+    }
+    const auto replaced = [&](const std::string &from, const std::string &to) {
+        std::string changed = bytes;
+        for (std::size_t at = 0; (at = changed.find(from, at)) != std::string::npos;
+             at += to.size())
+            changed.replace(at, from.size(), to);
+        return folder.write("changed.exr", changed);
+    };
+    auto path = replaced("T.420,000nm", "T.421,000nm");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(),
+                         "the channel 'T.420,000nm' is missing");
+    path = replaced("transport.key", "transport.kei");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(),
+                         "the part 'transport.key' is missing");
+    path = replaced("tsuya-spectral-2", "tsuya-spectral-9");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya-spectral-9");
+    path = replaced("hat 16 ", "hat -1 ");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya:basis");
+    path = replaced("tsuya:group.0", "tsuya:grove.0");
+    test::expect_problem([&] { read_spectral_exr(path); }, path.string(), "tsuya:group.0");
+}
+
+TEST(SpectralFile, RefusesWrongPictures) {
+    const test::Folder folder;
+    const auto exr = folder / "t.exr";
+    SpectralImage image = some_transport();
+    image.transport.pop_back();
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "values");
+    image = some_transport();
+    image.aovs[0].width = 36;
+    EXPECT_THROW(write_spectral_exr(exr, image), Error);
+    image = some_transport();
+    image.aov_names.pop_back();
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "given with");
+    image = some_transport();
+    image.groups[1] = "key";
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "two light groups");
+    image.groups[1] = "";
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "no name");
+    image = some_transport();
+    image.alpha = ramp(37, 28, {"A"});
+    test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "alpha");
+    image = some_transport();
+    for (const std::array<int, 4> &window :
+         {std::array{0, 0, 38, 29}, {-1, 0, 37, 29}, {5, 5, 5, 9}, {0, 9, 37, 3}}) {
+        image.data_window = window;
+        test::expect_problem([&] { write_spectral_exr(exr, image); }, exr.string(), "data window");
+    }
+    EXPECT_EQ(folder.size(), 0);
 }
 
 } // namespace
