@@ -93,9 +93,10 @@ struct Bound {
     double mean, p99;
 };
 
+// The bounds are about a twentieth above what was measured; hats of as many channels are beyond.
 TEST(ChannelAccuracy, MeasuredReflectancesAreWithinTheBounds) {
     const std::vector<Spectrum> spectra = measured();
-    for (const Bound &bound : {Bound{8, 0.46, 3.2}, {16, 0.07, 0.5}, {32, 0.012, 0.08}}) {
+    for (const Bound &bound : {Bound{8, 0.37, 2.4}, {16, 0.033, 0.15}, {32, 0.0115, 0.058}}) {
         const Errors fitted = errors_of(spectra, SpectralBasis::of_renders(bound.channels));
         const Errors hats = errors_of(spectra, {.count = bound.channels});
         record("measured", bound.channels, fitted);
@@ -103,12 +104,14 @@ TEST(ChannelAccuracy, MeasuredReflectancesAreWithinTheBounds) {
         EXPECT_LT(fitted.mean, bound.mean) << bound.channels;
         EXPECT_LT(fitted.p99, bound.p99) << bound.channels;
         EXPECT_LT(fitted.mean, 0.8 * hats.mean) << bound.channels;
+        EXPECT_GT(hats.mean, bound.mean) << bound.channels; // negative control
+        EXPECT_GT(hats.p99, bound.p99) << bound.channels;
     }
 }
 
 TEST(ChannelAccuracy, NamedDyesAreWithinTheBounds) {
     const std::vector<Spectrum> spectra = dyes();
-    for (const Bound &bound : {Bound{8, 0.3, 1.8}, {16, 0.03, 0.2}, {32, 0.015, 0.08}}) {
+    for (const Bound &bound : {Bound{8, 0.17, 1.2}, {16, 0.020, 0.16}, {32, 0.0063, 0.055}}) {
         const Errors fitted = errors_of(spectra, SpectralBasis::of_renders(bound.channels));
         record("dyes", bound.channels, fitted);
         EXPECT_LT(fitted.mean, bound.mean) << bound.channels;
@@ -116,7 +119,7 @@ TEST(ChannelAccuracy, NamedDyesAreWithinTheBounds) {
     }
 }
 
-TEST(ChannelAccuracy, SharpEdgesAreShownNoWorseThanInHats) {
+TEST(ChannelAccuracy, SharpEdgesHaveASmallerMeanErrorThanInHats) {
     std::vector<Spectrum> edges;
     for (int nm = 420; nm <= 680; nm += 5) {
         edges.push_back({{nm + 0.0, nm + 1.0}, {0.05, 0.8}});

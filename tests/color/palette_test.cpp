@@ -22,7 +22,7 @@ TEST(Palette, RefusesAFileThatIsNotThere) {
     const test::Folder folder;
     const std::string absent = (folder / "absent.csv").string();
     const Texts specs{absent + ":*"};
-    test::expect_problem([&] { expand_palettes(specs); }, absent, "");
+    test::expect_problem([&] { expand_palettes(specs); }, absent, "No such file");
 }
 
 } // namespace

@@ -104,6 +104,16 @@ TEST(SpectralLayout, EachLightGroupIsASpectralPartOfItsOwn) {
     }
 }
 
+// The wavelengths of the channels that renders have.
+TEST(SpectralLayout, ChannelsOfRendersAreNamedByTheirNodes) {
+    EXPECT_EQ(
+        channel_names(SpectralBasis::of_renders(16), false),
+        (std::vector<std::string>{"T.418,000nm", "T.436,000nm", "T.447,000nm", "T.464,000nm",
+                                  "T.487,000nm", "T.511,000nm", "T.531,000nm", "T.544,000nm",
+                                  "T.559,000nm", "T.576,000nm", "T.594,000nm", "T.613,000nm",
+                                  "T.633,000nm", "T.650,000nm", "T.663,000nm", "T.699,000nm"}));
+}
+
 TEST(SpectralLayout, AllPartsHaveTheWindowOfThePicture) {
     SpectralImage image = some_transport();
     image.data_window = {5, 11, 30, 27};
