@@ -46,6 +46,28 @@ TEST(Plan, CountsTheBytesOfWhatIsNotAskedFor) {
     EXPECT_EQ(text_of({}), "");
 }
 
+// Shares below 0.05 are within the noise of their measurement.
+TEST(Plan, TellsNoShareWithinTheNoise) {
+    Scene with_environment = folded_satin(8, 8), without = with_environment;
+    without.environment.reset();
+    without.lights.push_back(
+        DiskLight{.name = "below", .centre = {0, -1, 0}, .direction = {0, -1, 0}});
+    for (const Scene *scene : {&with_environment, &without})
+        for (const int bounces : {0, 1, 2, 3, 8})
+            for (const Feature &feature : plan(*scene, {.max_bounces = bounces}).features) {
+                const double share = feature.saves ? feature.saves->of_sample : 0;
+                EXPECT_TRUE(share == 0 || share >= 0.05) << feature.name << " " << share;
+            }
+    const auto of_last_rays = [&](const Scene &scene, int bounces) {
+        return plan(scene, {.max_bounces = bounces}).feature("whole last rays").saves->of_sample;
+    };
+    EXPECT_NEAR(of_last_rays(without, 0), 0.18, 1e-9);
+    EXPECT_NEAR(of_last_rays(without, 1), 0.09, 1e-9);
+    EXPECT_EQ(of_last_rays(without, 3), 0);
+    EXPECT_EQ(of_last_rays(with_environment, 0), 0);
+    EXPECT_EQ(text_of(*plan(without, {}).feature("lights out of reach").saves), "");
+}
+
 TEST(Plan, NamesWhatIsIdle) {
     Scene scene = folded_satin(8, 8);
     scene.fabrics.push_back(satin(0.2));

@@ -88,6 +88,8 @@ class Planner {
             std::find(kFeatureNames.begin(), kFeatureNames.end(), name) - kFeatureNames.begin());
     }
     void tell(FeatureId id, bool on, std::string why, std::optional<Saving> saves = {}) {
+        if (saves && saves->of_sample < cost::kLeastShare)
+            saves->of_sample = 0;
         p.features.push_back({std::string(name_of(id)), on, std::move(why), saves});
     }
     // It is done though it is idle.
@@ -156,10 +158,9 @@ class Planner {
         // Of a specular part without weight no time was measured
         p.any_specular = part(FeatureId::specular, std::nullopt,
                               [&](std::size_t i) { return has_specular(scene_.fabrics[i]); });
-        p.any_diffuse =
-            part(FeatureId::diffuse, Saving{.of_sample = cost::kIdleDiffuse}, [&](std::size_t i) {
-                return scene_.fabrics[i].colours.any_dye() || is_open(i) || transmits(i);
-            });
+        p.any_diffuse = part(FeatureId::diffuse, Saving{}, [&](std::size_t i) {
+            return scene_.fabrics[i].colours.any_dye() || is_open(i) || transmits(i);
+        });
         std::size_t thin = 0;
         for (std::size_t i = 0; i < used.size(); ++i)
             thin += used[i] && transmits(i) ? 1 : 0;
@@ -243,7 +244,7 @@ class Planner {
             else
                 far.push_back(name_in(scene_, i) + " " + beyond[i]);
         tell_lights(FeatureId::dark_lights, dark, "there are none", cost::kDarkLight);
-        tell_lights(FeatureId::far_lights, far, "every light reaches a surface", cost::kFarLight);
+        tell_lights(FeatureId::far_lights, far, "every light reaches a surface", 0);
         const bool choose = p.lights.size() > kFewLights;
         tell(FeatureId::light_choice, choose,
              choose
@@ -294,8 +295,7 @@ class Planner {
             p.environment ? "after the last point of a path it counts whether a ray meets anything"
                           : "after the last point of a path lights alone count",
             "cloth with holes stands before an environment",
-            Saving{.of_sample = (p.environment ? cost::kNearestHit : cost::kWholeLastRay) /
-                                (1 + p.max_bounces)});
+            Saving{.of_sample = (p.environment ? 0 : cost::kWholeLastRay) / (1 + p.max_bounces)});
     }
 
     void cloth() {

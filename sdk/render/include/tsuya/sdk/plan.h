@@ -17,7 +17,7 @@ struct RenderSettings;
 /// What it saves to leave something out. Time is an estimate, from scenes on which it was measured
 /// (tests/bench/run skips); bytes are counted.
 struct Saving {
-    double of_sample = 0; ///< share of the time that a sample takes with it, 0 to 1
+    double of_sample = 0; ///< share of the time that a sample takes with it: 0.05 to 1, or 0
     double seconds = 0;   ///< of a processor, once a render
     double bytes = 0;     ///< of memory
 };
