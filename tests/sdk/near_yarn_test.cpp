@@ -234,7 +234,7 @@ double correlation(const NearYarn &near, const WeaveMap &map, int lag) {
     return (product / rows - mean * mean) / (square / rows - mean * mean);
 }
 
-// No eye finds the repeat in threads that are not alike.
+// Repeats of uneven threads differ.
 TEST(NearYarn, HasNoRepeatThatIsLikeTheNext) {
     const WeaveMap map = lab::face_of(lab::weave("black polyester satin"));
     const NearYarn even(even_slopes(), 0.05, map, {}),

@@ -107,7 +107,8 @@ TEST(NearCloth, IsTheFarClothFromFar) {
               picture(sheet(satin(0.3), 16), 4).transport);
 }
 
-// One place of the repeat has yarns. Pixels are half a metre: rows from above, v grows upwards.
+// One place of the repeat has yarns. Places are half a metre, pixels a quarter: rows from above, v
+// grows upwards.
 TEST(NearCloth, LiesAsItIsCut) {
     const WeaveMap map = drawn(1, 2,
                                ".."

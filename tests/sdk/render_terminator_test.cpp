@@ -55,15 +55,18 @@ double largest_error(const Scene &scene, const glm::dvec3 &to_light) {
     settings.aovs = {"coverage", "normal"};
     const SpectralImage image = render(scene, settings).image;
     double largest = 0;
+    int covered = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             if (*image.aovs[0].pixel(x, y) < 1)
                 continue;
+            ++covered;
             const float *const n = image.aovs[1].pixel(x, y);
             const double cosine = glm::dot(glm::dvec3(n[0], n[1], n[2]), to_light);
             largest = std::max(
                 largest, std::abs(double(*image.pixel(0, x, y)) - kBright * std::max(0.0, cosine)));
         }
+    EXPECT_GT(covered, 100);
     return largest;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -94,20 +95,28 @@ TEST(UnevenThreads, SlubsTakeTheirRoomFromThePicksBeside) {
     EXPECT_GT(widest, 1.8);
 }
 
+constexpr double kSlubLength = 0.012;
+
+struct SlubsSeen {
+    double number = 0;       // in a metre of a pick
+    double above_half_m = 0; // what of one is more than half its height
+};
+
 // Walks along the picks of one group, whose thinnest has no slub, and looks at where they are wide.
-TEST(UnevenThreads, HaveAsManySlubsAsLongAsAsked) {
+SlubsSeen slubs_seen(double slubs_per_m) {
     const WeaveMap map = satin_sized();
-    constexpr double kGain = 1.5, kLength = 0.012, kStep = 1e-3, kWalk = 2;
+    constexpr double kGain = 1.5, kStep = 1e-3, kWalk = 2;
     constexpr std::size_t kPicks = 8;
-    const UnevenThreads threads(map,
-                                {.slubs_per_m = 20, .slub_length = kLength, .slub_gain = kGain});
+    const UnevenThreads threads(
+        map, {.slubs_per_m = slubs_per_m, .slub_length = kSlubLength, .slub_gain = kGain});
     const double spacing = map.spacing().y;
     std::vector<bool> inside(kPicks);
     int slubs = 0, above_half = 0;
     for (double x = 0; x < kWalk; x += kStep) {
         const auto thread = [&](double y) { return static_cast<int>(threads.at({x, y}).place.y); };
         const std::vector<double> edges = edges_between(thread, 0, 8.1 * spacing, 0.1 * spacing);
-        ASSERT_EQ(edges.size(), kPicks);
+        if (edges.size() != kPicks)
+            throw std::logic_error("a pick was missed");
         std::vector<double> width{edges[0]};
         for (std::size_t i = 1; i < kPicks; ++i)
             width.push_back(edges[i] - edges[i - 1]);
@@ -119,10 +128,15 @@ TEST(UnevenThreads, HaveAsManySlubsAsLongAsAsked) {
             above_half += swelling > 0.5 * kGain;
         }
     }
-    const double expected = 20 * kWalk * kPicks;
-    EXPECT_NEAR(slubs / expected, 1, 0.1);
+    return {slubs / (kWalk * kPicks), above_half * kStep / slubs};
+}
+
+TEST(UnevenThreads, HaveAsManySlubsAsLongAsAsked) {
+    const SlubsSeen seen = slubs_seen(20);
+    EXPECT_NEAR(seen.number / 20, 1, 0.1);
     // A cosine squared is above half its height over half its length
-    EXPECT_NEAR(above_half * kStep / expected / (0.5 * kLength), 1, 0.1);
+    EXPECT_NEAR(seen.above_half_m / (0.5 * kSlubLength), 1, 0.1);
+    EXPECT_GT(std::abs(slubs_seen(15).number / 20 - 1), 0.1); // negative control
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-"""The skirt of bench/render_scenes.cpp: as an OBJ and a scene file for Tsuya, and as lists for Blender."""
+"""The skirt of bench/skirt.cpp: as an OBJ and a scene file for Tsuya, and as lists for Blender."""
 import math
 import os
 
