@@ -114,6 +114,7 @@ LoadSteps run_steps(PolygonMesh mesh, const Options &options, const std::vector<
         p = in_metres(options, p);
     Prepared prepared = MeshRepair(std::move(mesh), options.seams, options.want_frames,
                                    options.frames.plain, progress)
+                            .state_unit(options.unit_stated)
                             .run();
     if (options.want_frames) {
         prepared.report.metres_per_uv = choose_uv_scale(options.metres_per_uv, prepared.report);

@@ -25,10 +25,11 @@ struct GarmentCheck final : Command {
     garment::SeamOptions seams{};
     std::optional<double> metres_per_uv{};
     bool json = false, strict = false;
+    const Option *unit_option = nullptr;
 
     void options(Options &o) override {
         o.argument(&mesh, "MESH", "mesh: OBJ, glTF, PLY, OFF, FBX, DAE or STL").required();
-        add_unit(o, unit, "length unit of the mesh");
+        unit_option = &add_unit(o, unit, "length unit of the mesh");
         add_up(o, up);
         add_sewing_tolerance(o, seams.tolerance);
         add_uv_scale(o, metres_per_uv);
@@ -61,7 +62,8 @@ struct GarmentCheck final : Command {
 
     garment::Report checked(garment::PolygonMesh metres, Console &console) const {
         try {
-            return garment::check(std::move(metres), seams, console.progress(), metres_per_uv);
+            return garment::check(std::move(metres), seams, console.progress(), metres_per_uv,
+                                  unit_option->given);
         } catch (const Error &error) {
             throw error.at(mesh.string());
         }

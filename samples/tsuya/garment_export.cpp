@@ -17,6 +17,7 @@ struct GarmentExport final : Command {
     std::filesystem::path output{};
     FabricOptions cloth{};
     std::string dye{}, grain{}, up{};
+    const Option *unit = nullptr;
 
     void options(Options &o) override {
         o.argument(&job.garment, "MESH", "mesh: OBJ, glTF, PLY, OFF, FBX, DAE or STL").required();
@@ -31,7 +32,7 @@ struct GarmentExport final : Command {
                 if (!dye.empty())
                     scene::check_dyes({dye});
             });
-        add_unit(o, job.unit, "length unit of the mesh");
+        unit = &add_unit(o, job.unit, "length unit of the mesh");
         add_up(o, up);
         o.option("--level", &job.level, "N", "level of subdivision: each edge is cut into 2^N")
             .range(0, 8);
@@ -51,6 +52,7 @@ struct GarmentExport final : Command {
         scene::check_output_file(output);
         cloth.fill(job);
         job.invented_grain = parse_grain(grain);
+        job.unit_stated = unit->given;
         job.up = stated_up(up);
         job.keeps_own_dye = dye.empty();
         if (!dye.empty())

@@ -24,6 +24,7 @@ struct GarmentSubdivide final : Command {
     garment::SeamOptions seams{};
     std::optional<double> metres_per_uv{};
     bool strict = false;
+    const Option *unit_option = nullptr;
 
     void options(Options &o) override {
         o.argument(&mesh, "MESH", "mesh: OBJ, glTF, PLY, OFF, FBX, DAE or STL").required();
@@ -31,7 +32,7 @@ struct GarmentSubdivide final : Command {
                  "the triangles; a PLY has warp and weft, too")
             .required()
             .result({".obj", ".ply"});
-        add_unit(o, unit, "length unit of the mesh");
+        unit_option = &add_unit(o, unit, "length unit of the mesh");
         add_up(o, up);
         const Option &levels =
             o.option("--level", &level, "N", "level of subdivision: each edge is cut into 2^N")
@@ -61,6 +62,7 @@ struct GarmentSubdivide final : Command {
     Status run(Console &console) override {
         scene::check_output_file(output);
         const garment::Options settings{.metres_per_unit = garment::metres_per(unit),
+                                        .unit_stated = unit_option->given,
                                         .up = stated_up(up),
                                         .metres_per_uv = metres_per_uv,
                                         .seams = seams,

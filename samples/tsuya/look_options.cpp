@@ -106,8 +106,9 @@ void add_uv_scale(Options &options, std::optional<double> &metres_per_uv) {
         .positive();
 }
 
-void add_unit(Options &options, std::string &unit, std::string help) {
-    options.option("--unit", &unit, "UNIT", std::move(help)).one_of({"m", "dm", "cm", "mm", "in"});
+const Option &add_unit(Options &options, std::string &unit, std::string help) {
+    return options.option("--unit", &unit, "UNIT", std::move(help))
+        .one_of({"m", "dm", "cm", "mm", "in"});
 }
 
 void add_up(Options &options, std::string &up) {

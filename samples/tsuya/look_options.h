@@ -47,8 +47,8 @@ void add_sewing_tolerance(Options &options, std::optional<double> &metres);
 /// `--metres-per-uv`
 void add_uv_scale(Options &options, std::optional<double> &metres_per_uv);
 
-/// `--unit`. \param help what has the unit
-void add_unit(Options &options, std::string &unit, std::string help);
+/// `--unit`. \param help what has the unit \return the option, which says whether it was given
+const Option &add_unit(Options &options, std::string &unit, std::string help);
 
 /// `--up y|z`, empty where it is not stated
 void add_up(Options &options, std::string &up);

@@ -30,7 +30,7 @@ struct TryOn final : Command {
     std::optional<double> f_number{};
     bool keeps_noise = false, keeps_lobes = false, no_backdrop = false, no_cache = false;
     bool floats = false;
-    const Option *dye = nullptr, *channels = nullptr, *lamps = nullptr;
+    const Option *dye = nullptr, *channels = nullptr, *lamps = nullptr, *unit = nullptr;
 
     void options(Options &o) override {
         add_garment(o);
@@ -83,7 +83,7 @@ struct TryOn final : Command {
                 throw Error(
                     Problem{"a body without a garment", "", "expected --garment or --frames"});
         });
-        add_unit(o, job.unit, "length unit of the meshes");
+        unit = &add_unit(o, job.unit, "length unit of the meshes");
         add_up(o, up);
         const Option &level =
             o.option("--level", &job.level, "N", "level of subdivision: each edge is cut into 2^N")
@@ -197,6 +197,7 @@ struct TryOn final : Command {
         else
             job.keeps_own_dye = !dye->given;
         job.invented_grain = parse_grain(grain);
+        job.unit_stated = unit->given;
         job.up = stated_up(up);
         check_results();
         look.check();

@@ -28,6 +28,7 @@ TEST(Check, MeasuresUvScaleUnitsAndMirroring) {
     EXPECT_FALSE(keys(report).contains("unusual_size"));
     PolygonMesh large = panel(4, 4, 30.0);
     EXPECT_TRUE(keys(check(large)).contains("unusual_size"));
+    EXPECT_FALSE(keys(check(large, {}, {}, {}, true)).contains("unusual_size"));
 }
 
 TEST(Check, SaysWhatClothWillBeRefusedFor) {

@@ -239,6 +239,23 @@ TEST(Program, ChecksGarments) {
     EXPECT_EQ(report.at("schema"), "tsuya-garment-check 1");
     EXPECT_EQ(report.at("file").at("duplicate_faces"), 1);
     EXPECT_EQ(run(scratch, {"garment", "check", (scratch / "no.obj").string()}).status, 1);
+    // A stage is as long as its unit, where that is stated, says
+    const std::string stage =
+        scratch.write("stage.obj", "v 0 0 0\nv 18.5 0 0\nv 18.5 0 9\nv 0 0 9\nf 1 2 3 4\n")
+            .string();
+    for (const char *const command : {"check", "subdivide"}) {
+        const auto said = [&](std::vector<std::string> more) {
+            std::vector<std::string> call{"garment", command, stage};
+            if (command == std::string("subdivide"))
+                call.insert(call.end(), {"--grain", "vertical", "-o", stage + ".obj"});
+            call.insert(call.end(), more.begin(), more.end());
+            const Outcome made = run(scratch, call);
+            EXPECT_EQ(made.status, 0) << made.err;
+            return made.out + made.err;
+        };
+        EXPECT_NE(said({}).find("measures 18.5 m at most"), std::string::npos) << said({});
+        EXPECT_EQ(said({"--unit", "m"}).find("at most"), std::string::npos);
+    }
 
     const std::string fine = (scratch / "n/fine.obj").string();
     const Outcome divided =

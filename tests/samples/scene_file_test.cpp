@@ -34,6 +34,7 @@ TEST(SceneFile, HasDefaults) {
     EXPECT_TRUE(file.garments[0].visible);
     EXPECT_TRUE(file.garments[0].options.want_frames);
     EXPECT_EQ(file.garments[0].options.metres_per_unit, 1);
+    EXPECT_FALSE(file.garments[0].options.unit_stated);
     EXPECT_EQ(file.garments[0].options.subdivide.level, 1);
     EXPECT_FALSE(file.fabrics[0].dye);
     EXPECT_TRUE(file.fabrics[0].file.empty());
@@ -183,6 +184,7 @@ TEST(SceneFile, ReadsEveryKey) {
     const MeshEntry &garment = file.garments.at(0);
     EXPECT_EQ(garment.fabric, 1u);
     EXPECT_EQ(garment.options.metres_per_unit, 0.001);
+    EXPECT_TRUE(garment.options.unit_stated);
     EXPECT_EQ(garment.options.up, garment::UpAxis::z);
     EXPECT_EQ(garment.options.subdivide.level, 3);
     EXPECT_EQ(garment.tolerance_px, 0.5);

@@ -212,7 +212,8 @@ double choose_uv_scale(const std::optional<double> &stated, Report &report) {
 
 void MeshRepair::list_findings() {
     Findings findings(report_);
-    find_units(report_, findings);
+    if (!unit_stated_)
+        find_units(report_, findings);
     find_topology(report_, findings);
     find_seams(report_, findings);
     if (!cloth_)

@@ -117,10 +117,13 @@ Prepared make_manifold(PolygonMesh mesh) {
 }
 
 Report check(PolygonMesh metres, const SeamOptions &options, const Progress &progress,
-             const std::optional<double> &metres_per_uv) {
+             const std::optional<double> &metres_per_uv, bool unit_stated) {
     check_indices(metres, "mesh");
-    Report report =
-        MeshRepair(std::move(metres), options, true, {}, progress).list_islands().run().report;
+    Report report = MeshRepair(std::move(metres), options, true, {}, progress)
+                        .list_islands()
+                        .state_unit(unit_stated)
+                        .run()
+                        .report;
     report.metres_per_uv = choose_uv_scale(metres_per_uv, report);
     return report;
 }

@@ -49,6 +49,11 @@ class MeshRepair {
         lists_islands_ = true;
         return *this;
     }
+    /// The unit of the file was stated: a mesh of any size is no finding.
+    MeshRepair &state_unit(bool stated) {
+        unit_stated_ = stated;
+        return *this;
+    }
     /// All steps.
     Prepared run();
     /// `make_manifold` alone.
@@ -141,7 +146,7 @@ class MeshRepair {
     bool cloth_;
     std::set<std::string> plain_;
     Progress progress_;
-    bool lists_islands_ = false;
+    bool lists_islands_ = false, unit_stated_ = false;
     std::map<std::string, std::string> island_of_panel_{}; ///< where a panel has only one
     bool joining_ = false; ///< findings about the topology belong to the joined mesh
     bool settled_ = false; ///< make_manifold would find nothing to do

@@ -39,6 +39,7 @@ void SceneReader::read_meshes(const char *kind, bool yarn, std::vector<MeshEntry
         if (const auto unit = section.text("unit"))
             note(section, "unit",
                  [&] { entry.options.metres_per_unit = garment::metres_per(*unit); });
+        entry.options.unit_stated = section.has("unit");
         if (const auto up = section.text("up"))
             note(section, "up", [&] { entry.options.up = garment::up_axis(*up); });
         entry.options.subdivide.level = section.integer("level", 0, 8).value_or(1);

@@ -123,6 +123,7 @@ Stage make_stage(const TryOn &job, const Progress &progress) {
     Scene &scene = stage.shown.scene;
     const Cloths cloths(job, progress);
     garment::Options options{.metres_per_unit = garment::metres_per(job.unit),
+                             .unit_stated = job.unit_stated,
                              .up = job.up,
                              .seams = job.seams,
                              .subdivide = {.level = job.level, .tolerance = job.tolerance},

@@ -16,8 +16,9 @@ namespace tsuya::garment {
 /// for bad indices (see check_indices), and Interrupted where `progress` says stop.
 /// \param metres mesh with positions in metres
 /// \param metres_per_uv see Options::metres_per_uv
+/// \param unit_stated see Options::unit_stated
 Report check(PolygonMesh metres, const SeamOptions &options = {}, const Progress &progress = {},
-             const std::optional<double> &metres_per_uv = {});
+             const std::optional<double> &metres_per_uv = {}, bool unit_stated = false);
 
 /// A finding `probably_z_up` where the mesh stands upright along z: it is longer along z than along
 /// y, and of its two longest openings (hem and neck, hem and waist) one lies above the other along

@@ -26,6 +26,7 @@ enum class UpAxis { y, z };
 /// How a file is read. Everything has a usable default.
 struct Options {
     double metres_per_unit = 1.0; ///< length of one unit of the file, see metres_per
+    bool unit_stated = false;     ///< the user stated it: any size is right, no `unusual_size`
     /// Files with z up are turned by a quarter about x, so that their -y faces to the front.
     /// nullopt: y, with a finding `probably_z_up` where the openings of the mesh say otherwise.
     std::optional<UpAxis> up{};

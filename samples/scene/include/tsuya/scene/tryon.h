@@ -67,6 +67,7 @@ struct TryOn {
     double max_degenerate_area = 0.05;      ///< of the garment, see FrameOptions
     bool strict = false;                    ///< a warning about the garment is an Error
     std::string unit = "m";                 ///< of garment and body, see garment::metres_per
+    bool unit_stated = false;               ///< see garment::Options
     std::optional<garment::UpAxis> up{};    ///< of garment and body, see garment::Options
     int level = 1;                          ///< of subdivision, 0 to 8
     /// One row of the sheet each, see parse_dye. Empty: the fabric's own dye. One render serves all
