@@ -12,6 +12,7 @@
 #include "tsuya/scene/own_lamps.h"
 #include "tsuya/scene/picture.h"
 #include "tsuya/sdk/detail/threads.h"
+#include "tsuya/sdk/error.h"
 
 namespace tsuya::program {
 namespace {
@@ -45,8 +46,12 @@ struct Relight final : Command {
                 if (output.extension() != ".exr")
                     check_picture_file(output, file_options());
             });
-        o.option("--bits", &bits, "N", "bits of a sample: 16 for PNG and TIFF alone; EXR has 32")
-            .one_of({"8", "16"});
+        Option &depth =
+            o.option("--bits", &bits, "N", "bits of a sample, 16 for PNG and TIFF alone");
+        depth.one_of({"8", "16"}).check([this, &depth] {
+            if (depth.given && output.extension() == ".exr")
+                throw Error({"an EXR has 32 bits a sample", "", "expected no --bits beside it"});
+        });
         look.add_to(o);
         add_threads(o, threads);
         o.example("tsuya relight dress.exr --lamp key=A --lamp fill=0.5*D65 -o dress.png");

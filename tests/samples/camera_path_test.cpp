@@ -93,11 +93,11 @@ TEST(CameraPath, MovesASceneThatStandsStill) {
 
 TEST(CameraPath, IsRefusedWhereAFrameSeesNothing) {
     const Scratch scratch;
-    // The second frame looks along its up direction
+    // Between the keys the camera is above its target
     std::string text = moving_scene();
-    text.replace(text.find("[3, 1, 0]"), 9, "[0, 1, 0]");
+    text.replace(text.find("[3, 1, 0]"), 9, "[0, 1, -3]");
     try {
-        build(scratch, text, 2);
+        build(scratch, text, 3);
         ADD_FAILURE() << "no error was thrown";
     } catch (const Error &error) {
         EXPECT_NE(error.problems()[0].where.find("camera.path, frame 1"), std::string::npos)

@@ -201,7 +201,31 @@ INSTANTIATE_TEST_SUITE_P(
                  "{ at = 1, eye = [0, 1, 2], target = [0, 1, 0] }]",
                  "2:7", "beside a path", "camera.path"},
         BadInput{"PathThatIsNoList", "width = 16", "path = 3", "2:8", "no list of tables",
-                 "[[path]]"},
+                 "[[camera.path]]"},
+        BadInput{"EmptyPath", "width = 16", "path = []", "2:8", "no list of tables",
+                 "[[camera.path]]"},
+        BadInput{"PathOfOneTable", "width = 16", "path = {at = 0}", "2:8", "no list of tables",
+                 "[[camera.path]]"},
+        BadInput{"KeyAtItsTarget", "width = 16",
+                 "path = [{ at = 0, eye = [0, 1, 3], target = [0, 1, 0] },\n"
+                 "{ at = 1, eye = [0, 1, 2], target = [0, 1, 2] }]",
+                 "3:37", "looks nowhere", "apart"},
+        BadInput{"KeyAlongUp", "width = 16",
+                 "up = [0, 0, 1]\npath = [{ at = 0, eye = [0, 1, 3], target = [0, 1, 0] },\n"
+                 "{ at = 1, eye = [0, 2, 2], target = [0, 1, 2] }]",
+                 "3:45", "along its up direction", "not parallel"},
+        BadInput{"EyeAtTarget", "width = 16", "eye = [0,1,0]\ntarget = [0,1,0]", "3:10",
+                 "looks nowhere", "apart"},
+        BadInput{"KeyAtNoTime", "width = 16",
+                 "path = [{ at = nan, eye = [0, 1, 3], target = [0, 1, 0] }, "
+                 "{ at = 1, eye = [0, 1, 2], target = [0, 1, 0] }]",
+                 "2:16", "'at'", "from 0 to 1"},
+        BadInput{"KeyWithoutTime", "width = 16",
+                 "path = [{ at = 0, eye = [0, 1, 3], target = [0, 1, 0] }, "
+                 "{ eye = [0, 1, 2], target = [0, 1, 0] }]",
+                 "2:58", "'at' is missing", "from 0 to 1"},
+        BadInput{"SkyThatIsNoTable", "radiance = 0.2", "sky = 3", "13:7", "not a table",
+                 "[environment.sky]"},
         BadInput{"NotToml", "width = 16", "width = = 16", "2:9", "", "TOML"}),
     [](const auto &input) { return std::string(input.param.name); });
 
@@ -212,6 +236,45 @@ TEST(SceneFile, RefusesUnknownLampsAndViews) {
     ASSERT_EQ(problems.size(), 3u);
     EXPECT_NE(problems[0].where.find(":18:9"), std::string::npos) << problems[0].where;
     EXPECT_NE(problems[0].what.find("D66"), std::string::npos);
+}
+
+// A file of spectra that is wrong is named, where it is missing as where it is no file of spectra.
+TEST(SceneFile, NamesFilesOfLampsAndDyes) {
+    const Scratch scratch;
+    scratch.write("bad.csv", "400,x\n");
+    const std::string missing = (scratch / "no.csv").string();
+    for (const auto &[from, to] :
+         {std::pair(std::string("\"crimson\""), std::string("\"no.csv\"")),
+          {"[lights.key]\n", "[lights.key]\nlamp = \"no.csv\"\n"},
+          {"[render]\n", "[output]\nlamps = [\"A\", \"no.csv\"]\n[render]\n"}}) {
+        std::string text = small_scene();
+        text.replace(text.find(from), from.size(), to);
+        const std::vector<Problem> problems = problems_of(scratch, text);
+        ASSERT_EQ(problems.size(), 1u) << to;
+        EXPECT_EQ(problems[0].what,
+                  missing + ": the file cannot be opened: No such file or directory");
+        EXPECT_NE(problems[0].where.find("a.scene.toml:"), std::string::npos);
+    }
+    std::string wrong = small_scene();
+    wrong.replace(wrong.find("crimson"), 7, "bad.csv");
+    const std::vector<Problem> problems = problems_of(scratch, wrong);
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].what.rfind((scratch / "bad.csv").string() + ":", 0), 0u)
+        << problems[0].what;
+    // Files beside a scene that is named without a folder
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(scratch.folder());
+    std::string text = small_scene();
+    text.replace(text.find("crimson"), 7, "no.csv");
+    scratch.write("cloth.obj", cloth_obj());
+    scratch.write("a.scene.toml", text);
+    try {
+        read_scene_file("a.scene.toml");
+        ADD_FAILURE() << "no error was thrown";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.problems()[0].what.rfind("no.csv: ", 0), 0u) << error.what();
+    }
+    std::filesystem::current_path(before);
 }
 
 TEST(SceneFile, RefusesASceneWithoutLightOrGarment) {

@@ -187,7 +187,9 @@ TEST_F(FabricFile, BadOnesAreRefusedWithLineAndColumn) {
              {kStart + "[irregularity]\nthickness = 0.1\n", ":3:1", "without [weave]"},
              {kStart + "[weave]\npreset = \"a\"\n[irregularity]\nslubs_per_m = 50\n"
                        "slub_length_m = 0.05\n",
-              ":5:1", "slub_length"},
+              ":7:17", "slubs of 0.05 m do not fit 50 times in a metre"},
+             {kStart + "[weave]\npreset = \"a\"\n[irregularity]\nslubs_per_m = 60\n", ":6:15",
+              "slubs of 0.02 m do not fit 60 times in a metre"},
              {kStart + "[[", ":3:3", ""},
          }) {
         const auto problems = problems_of(read_it, file("f.fabric.toml", bad.text));

@@ -1,12 +1,27 @@
 // The camera of a scene file.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "scene_reader.h"
 #include "tsuya/sdk/angle.h"
 
 namespace tsuya::scene {
+namespace {
+
+// A time that is not known, since what is given as `at` is wrong.
+constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
+
+void check_view(const Section &section, const glm::dvec3 &eye, const glm::dvec3 &target,
+                const glm::dvec3 &up) {
+    if (!(glm::length(glm::cross(target - eye, up)) > 0))
+        section.problem("target", "the camera looks nowhere or along its up direction",
+                        "expected eye and target apart, and up not parallel to the view");
+}
+
+} // namespace
 
 void SceneReader::read_camera() {
     Framing &framing = file_.framing;
@@ -46,14 +61,15 @@ void SceneReader::read_camera() {
     if (framing.orthographic && !framing.orthographic_height)
         camera->problem("projection", "'orthographic_height' is missing",
                         "expected metres beside eye, such as orthographic_height = 1.8");
-    const Camera &c = *file_.camera;
-    if (!(glm::length(glm::cross(c.target - c.eye, c.up)) > 0))
-        camera->problem("target", "the camera looks nowhere or along its up direction",
-                        "expected eye and target apart, and up not parallel to the view");
+    if (target)
+        check_view(*camera, *eye, *target, file_.camera->up);
 }
 
-CameraKey SceneReader::read_key(const Section &section, double vertical_angle) {
-    CameraKey key{.at = section.required_number("at", 0, 1)};
+CameraKey SceneReader::read_key(const Section &section, const glm::dvec3 &up,
+                                double vertical_angle) {
+    if (!section.has("at"))
+        section.problem("at", "'at' is missing", "expected a number from 0 to 1");
+    CameraKey key{.at = section.number("at", 0, 1).value_or(kNoTime)};
     const auto eye = section.vector("eye"), target = section.vector("target");
     for (const auto &[name, given] : {std::pair("eye", &eye), std::pair("target", &target)})
         if (!*given && !section.has(name))
@@ -61,6 +77,8 @@ CameraKey SceneReader::read_key(const Section &section, double vertical_angle) {
                             "expected a point such as [0, 1, 3]");
     key.eye = eye.value_or(key.eye);
     key.target = target.value_or(key.target);
+    if (eye && target)
+        check_view(section, key.eye, key.target, up);
     const auto angle_deg = section.number("vertical_angle_deg", 0.1, 179);
     key.vertical_angle = angle_deg ? *angle_deg * kDegree : vertical_angle;
     return key;
@@ -75,22 +93,25 @@ void SceneReader::read_path(const Section &camera) {
     if (framing.orthographic)
         camera.problem("projection", "a camera on a path has a perspective",
                        "expected no projection, or no path");
+    const glm::dvec3 up = camera.vector("up").value_or(glm::dvec3(0, 1, 0));
     std::vector<CameraKey> &path = file_.camera_path;
     for (const Section &section : camera.list("path")) {
-        const CameraKey key = read_key(section, framing.vertical_angle);
-        if (!path.empty() && !(key.at > path.back().at))
+        const CameraKey key = read_key(section, up, framing.vertical_angle);
+        if (!path.empty() && key.at <= path.back().at)
             section.problem("at", "'at' does not rise", "expected keys in the order of their time");
         path.push_back(key);
     }
     if (path.empty())
         return;
+    const bool timed =
+        std::ranges::none_of(path, [](const CameraKey &key) { return std::isnan(key.at); });
     const bool whole = path.size() >= 2 && path.front().at == 0 && path.back().at == 1;
-    if (!whole)
+    if (timed && !whole)
         camera.problem("path", "the path has no beginning or no end",
                        "expected [[camera.path]] twice or more, from at = 0 to at = 1");
     file_.camera = Camera{.eye = path.front().eye,
                           .target = path.front().target,
-                          .up = camera.vector("up").value_or(glm::dvec3(0, 1, 0)),
+                          .up = up,
                           .vertical_angle = path.front().vertical_angle,
                           .width = framing.width,
                           .height = framing.height,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iomanip>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -78,14 +79,15 @@ std::string file_stem_of(const std::string &spec) {
 }
 
 void check_distinct(std::span<const std::string> specs, const std::string &kind) {
-    std::set<std::string> names;
+    std::map<std::string, std::string> specs_of; // by name
     for (const std::string &spec : specs) {
         const std::string name = file_stem_of(spec);
         std::string folded = name; // some file systems do not tell cases apart
         for (char &c : folded)
             c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        if (!names.insert(folded).second)
-            throw Error({"two " + kind + "s have the name '" + name + "', the last is " + spec,
+        if (const auto [first, is_new] = specs_of.emplace(folded, spec); !is_new)
+            throw Error({"two " + kind + "s have the name '" + name + "': " + first->second +
+                             " and " + spec,
                          kind, "expected each " + kind + " once, and files of different names"});
     }
 }

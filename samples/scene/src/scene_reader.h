@@ -37,7 +37,7 @@ class SceneReader {
     void read_framing(const Section &camera);
     // Keys of a camera that moves.
     void read_path(const Section &camera);
-    CameraKey read_key(const Section &section, double vertical_angle);
+    CameraKey read_key(const Section &section, const glm::dvec3 &up, double vertical_angle);
     void read_projection(const Section &camera);
     void read_lens(const Section &camera);
     void read_fabrics();

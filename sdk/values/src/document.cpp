@@ -52,6 +52,24 @@ void find_unknown(const detail::DocumentState &state, const toml::table &table,
     }
 }
 
+/// A text that is a value, or one in an array, contains `part`.
+bool has_text(const toml::node &node, const std::string &part) {
+    if (const toml::array *const array = node.as_array())
+        return std::any_of(array->begin(), array->end(),
+                           [&](const toml::node &element) { return has_text(element, part); });
+    const auto text = node.value_exact<std::string>();
+    return text && text->find(part) != std::string::npos;
+}
+
+/// As a key stands in the name of a table: in quotes where it is not a bare one.
+std::string key_text(std::string_view key) {
+    const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+        return c == '_' || c == '-' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+               (c >= 'A' && c <= 'Z');
+    });
+    return bare ? std::string(key) : "\"" + std::string(key) + "\"";
+}
+
 } // namespace
 
 Document::Document(const std::filesystem::path &file)
@@ -68,12 +86,16 @@ Document::Document(const std::filesystem::path &file)
 
 Document::~Document() = default;
 
-Section Document::root() const { return Section(state_.get(), &state_->root); }
+Section Document::root() const { return Section(state_.get(), &state_->root, ""); }
 
 void Document::finish() const {
     Problems problems = state_->problems;
     find_unknown(*state_, state_->root, problems);
     problems.throw_if_any();
+}
+
+std::string Section::full_name(std::string_view key) const {
+    return name_.empty() ? key_text(key) : name_ + "." + key_text(key);
 }
 
 bool Section::has(std::string_view key) const {
@@ -101,12 +123,12 @@ std::vector<Section> Section::list(std::string_view key) const {
     for (std::size_t i = 0; array && i < array->size(); ++i)
         if (const toml::table *const table = array->get(i)->as_table()) {
             state_->asked[table];
-            all.push_back(Section(state_, table));
+            all.push_back(Section(state_, table, full_name(key)));
         }
     if (array && !array->empty() && all.size() == array->size())
         return all;
     problem(key, "'" + std::string(key) + "' is no list of tables",
-            "expected [[" + std::string(key) + "]]");
+            "expected [[" + full_name(key) + "]]");
     return {};
 }
 
@@ -118,7 +140,10 @@ void Section::problem(std::string_view key, std::string what, std::string accept
 
 void Section::problem(std::string_view key, const Error &error) const {
     for (const Problem &p : error.problems()) {
-        const bool placed = p.where.find(':') != std::string::npos;
+        const toml::node *const value = table_of(table_).get(key);
+        const bool placed = p.where.find_first_of(":/") != std::string::npos ||
+                            (p.where.find('.') != std::string::npos && value &&
+                             has_text(*value, p.where)); // a file in the working folder
         problem(key, (placed ? p.where + ": " : "") + p.what, p.accepted);
     }
 }
@@ -245,10 +270,9 @@ std::optional<Section> Section::section(std::string_view key) const {
         return std::nullopt;
     if (const toml::table *table = table_of(table_).get(key)->as_table()) {
         state_->asked[table];
-        return Section(state_, table);
+        return Section(state_, table, full_name(key));
     }
-    problem(key, "'" + std::string(key) + "' is not a table",
-            "expected [" + std::string(key) + "]");
+    problem(key, "'" + std::string(key) + "' is not a table", "expected [" + full_name(key) + "]");
     return std::nullopt;
 }
 

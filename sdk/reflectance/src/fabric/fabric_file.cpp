@@ -101,8 +101,18 @@ struct FieldReader {
                 .value_or(static_cast<int>(value));
     }
     void operator()(const Field &field, Irregularity &irregularity) const {
-        if (const auto inner = section.section(field.key))
-            each_field(FieldReader{*inner}, irregularity);
+        const auto inner = section.section(field.key);
+        if (!inner)
+            return;
+        each_field(FieldReader{*inner}, irregularity);
+        const double length = irregularity.slub_length, per_m = irregularity.slubs_per_m;
+        if (!(per_m > 0) || length <= 1 / per_m)
+            return;
+        std::ostringstream text;
+        text.imbue(std::locale::classic());
+        text << "slubs of " << length << " m do not fit " << per_m << " times in a metre";
+        inner->problem(inner->has("slub_length_m") ? "slub_length_m" : "slubs_per_m", text.str(),
+                       "expected slub_length_m up to 1 / slubs_per_m");
     }
     void operator()(const Field &field, std::optional<ClothWeave> &weave) const {
         const auto inner = section.section(field.key);
@@ -119,11 +129,6 @@ struct FieldReader {
             inner->problem("", weave->file.empty() ? "no weave is named" : "two weaves are named",
                            "expected preset or file");
         (*this)({.key = "irregularity"}, weave->irregularity);
-        try {
-            check_irregularity(weave->irregularity, "");
-        } catch (const Error &error) {
-            section.problem("irregularity", error);
-        }
     }
     // Read by SpecularReader: what they are depends on each other
     void operator()(const Field &, Specular &) const {}

@@ -75,8 +75,8 @@ class Section {
 
     /// Notes a problem at a key.
     void problem(std::string_view key, std::string what, std::string accepted) const;
-    /// Notes the problems of an error at a key. One that has a place in a file of its own keeps it,
-    /// in front of what is wrong.
+    /// Notes the problems of an error at a key. One that is at a file, or at a place in one, keeps
+    /// that in front of what is wrong.
     void problem(std::string_view key, const Error &error) const;
 
   private:
@@ -84,9 +84,14 @@ class Section {
     std::optional<std::int64_t> whole_number(std::string_view key, std::int64_t low,
                                              std::int64_t high) const;
 
-    Section(detail::DocumentState *state, const void *table) : state_(state), table_(table) {}
+    Section(detail::DocumentState *state, const void *table, std::string name)
+        : state_(state), table_(table), name_(std::move(name)) {}
+    /// The name that a table at the key has in the file: `camera.path`.
+    std::string full_name(std::string_view key) const;
+
     detail::DocumentState *state_;
     const void *table_;
+    std::string name_; ///< of the table in the file; empty for the root
 };
 
 /// A TOML file that is read key by key.
