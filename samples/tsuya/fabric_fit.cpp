@@ -56,9 +56,11 @@ struct FabricFit final : Command {
                     throw Error(Problem{"--use all fits the model yarn, not " + *model, "",
                                         "expected yarn, or --use normal"});
             });
-        o.option("--weave", &weave_name, "WEAVE",
-                 "the weave of the cloth, WEAVE.toml, DRAFT.wif or a preset: a warning says where "
-                 "its draft does not explain the fitted yarns")
+        o.option(
+             "--weave", &weave_name, "WEAVE",
+             "the weave of the cloth, WEAVE.toml, DRAFT.wif or a preset: the fabric names it, so "
+             "that its yarns show close up (model yarn); a warning says where its draft does not "
+             "explain the fitted yarns")
             .or_file()
             .check([this] { check_weave_name(weave_name); });
         o.flag("--json", &json, "print the residuals as JSON");
@@ -119,6 +121,8 @@ struct FabricFit final : Command {
         compare(table, material.specular.get(), report, progress);
         if (material.specular && !weave_name.empty())
             report.covers = covers(*material.specular);
+        if (report.covers)
+            fabric.weave = weave();
         if (material.specular)
             report.after = oblique(table, *material.specular, progress);
         report.f0 = f0_of(views);
@@ -140,6 +144,16 @@ struct FabricFit final : Command {
         for (std::size_t axis = 0; axis < 2; ++axis)
             covers.fitted[axis] = yarns->lobes().filaments(axis) / (kPi / 2);
         return covers;
+    }
+
+    // As the fabric's file names it: from the folder of that file.
+    ClothWeave weave() const {
+        if (!names_weave_file(weave_name))
+            return {.preset = weave_name};
+        return {.file = std::filesystem::proximate(weave_name, output.parent_path().empty()
+                                                                   ? std::filesystem::path(".")
+                                                                   : output.parent_path())
+                            .string()};
     }
 
     // Weft over warp as the draft has it is within a factor of 2 of what was fitted: 1.05 to

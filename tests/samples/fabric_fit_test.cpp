@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samples/fabric_run.h"
+#include "tsuya/scene/read_cloth.h"
 #include "tsuya/sdk/angle.h"
 #include "tsuya/sdk/fabric.h"
 #include "tsuya/sdk/reflectance_file.h"
@@ -118,6 +119,7 @@ TEST(FabricFit, SaysWhereADraftDoesNotExplainTheYarns) {
     };
     const Outcome own = fit("black polyester satin"), other = fit("polyester taffeta");
     EXPECT_EQ(own.err, "");
+    EXPECT_EQ(read_fabric(file).weave->preset, "polyester taffeta");
     const json covers = json::parse(own.out).at("weave");
     EXPECT_NEAR(covers.at("warp").at("on_face").get<double>(), 0.875, 0.01);
     EXPECT_NEAR(covers.at("warp").at("fitted").get<double>() /
@@ -128,6 +130,32 @@ TEST(FabricFit, SaysWhereADraftDoesNotExplainTheYarns) {
               std::string::npos)
         << other.err << other.out;
     EXPECT_EQ(fit("no such weave").status, 2);
+}
+
+// A fitted fabric shows its yarns close up, wherever it and the weave's file lie.
+TEST(FabricFit, NamesTheWeave) {
+    const Scratch scratch;
+    const std::string table = (scene::data_folder() / "fabrics/black_satin.csv").string(),
+                      wif = (scene::data_folder() / "weaves/eight_end_satin.wif").string();
+    const std::filesystem::path file = scratch / "f/f.fabric.toml";
+    std::filesystem::create_directories(scratch / "f");
+    std::filesystem::copy_file(wif, scratch / "dress.wif");
+    const auto fitted = [&](std::vector<std::string> more) {
+        std::vector<std::string> call{"fit", table, "-o", file.string()};
+        call.insert(call.end(), more.begin(), more.end());
+        const Outcome made = run_fabric(scratch, call);
+        EXPECT_EQ(made.status, 0) << made.err;
+        return scene::read_cloth(file).weave;
+    };
+    const auto draft = fitted({"--weave", (scratch / "dress.wif").string()});
+    ASSERT_TRUE(draft);
+    EXPECT_EQ(draft->file, "../dress.wif");
+    EXPECT_TRUE(draft->has_map());
+    const auto preset = fitted({"--weave", "black polyester satin"});
+    ASSERT_TRUE(preset);
+    EXPECT_EQ(preset->preset, "black polyester satin");
+    EXPECT_FALSE(fitted({}));
+    EXPECT_FALSE(fitted({"--model", "takeda", "--weave", "black polyester satin"}));
 }
 
 TEST(FabricFit, TakesFacetsForViewsThatFacetsMade) {
