@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <set>
 
 #include "command.h"
 #include "compare_report.h"
 #include "json_file.h"
 #include "look_options.h"
+#include "same_file.h"
+#include "tsuya/color/adaptation.h"
 #include "tsuya/color/color_report.h"
 #include "tsuya/color/compare.h"
 #include "tsuya/color/dye.h"
@@ -63,7 +66,8 @@ struct Compare final : Command {
     void options(Options &o) override {
         o.argument(&transports, "OUT.exr...", "light transport from render or tryon, one or more")
             .with_words()
-            .required();
+            .required()
+            .check([this] { check_transports(); });
         o.option(
              "--lamps", &lamps, "A,B,...",
              "two or more of `tsuya list lamps`, files of spectra, a set of lamps, or `own`: each "
@@ -146,7 +150,8 @@ struct Compare final : Command {
             std::cout << numbers.text() << "\n";
         else {
             for (const DyedDifferences &dyed : differences)
-                print(dyed);
+                if (!dyed.lamps.empty())
+                    print(dyed);
             if (!output.empty())
                 std::cout << output.string() << ": at most " << 100 * out_of_gamut
                           << " % of the garment's pixels are out of the gamut of sRGB\n";
@@ -207,11 +212,24 @@ struct Compare final : Command {
         return display;
     }
 
-    /// The pictures, each called as its file.
+    /// Throws Error for a file that is given twice.
+    void check_transports() const {
+        for (auto file = transports.begin(); file != transports.end(); ++file)
+            if (std::any_of(transports.begin(), file,
+                            [&](const auto &other) { return is_same_file(*file, other); }))
+                throw Error(
+                    {"'" + file->string() + "' is given twice", "", "expected each picture once"});
+    }
+
+    /// The pictures, each called as its file, with the folder where two would have one name.
     std::vector<PageDress> read_dresses() const {
         std::vector<PageDress> dresses;
-        for (const std::filesystem::path &file : transports)
-            dresses.push_back({file.stem().string(), read_spectral_exr(file)});
+        for (const std::filesystem::path &file : transports) {
+            const bool alone =
+                std::ranges::count(transports, file.stem(), &std::filesystem::path::stem) == 1;
+            dresses.push_back(
+                {alone ? file.stem().string() : file.string(), read_spectral_exr(file)});
+        }
         return dresses;
     }
 
@@ -234,18 +252,29 @@ struct Compare final : Command {
     std::vector<DyedDifferences> compare(const std::vector<PageDress> &dresses,
                                          const std::vector<NamedLamp> &named,
                                          Console &console) const {
+        const CompareOptions options{.observer = eye(), .exposure_stops = figure_stops()};
         std::vector<DyedDifferences> differences;
+        std::set<std::string> left_out;
         for (std::size_t i = 0; i < dresses.size(); ++i) {
             SpectralImage image = dresses[i].image;
             for (const std::string &dye : shown_dyes()) {
                 if (!dye.empty())
                     console.warnings(scene::show_dyes(image, {&dye, 1}));
-                differences.push_back(
-                    {dresses.size() > 1 ? transports[i].string() : "", dye,
-                     compare_lightings(image, lightings_of(image, named),
-                                       {.observer = eye(), .exposure_stops = figure_stops()})});
+                std::vector<Lighting> lightings = lightings_of(image, named);
+                std::erase_if(lightings, [&](const Lighting &lighting) {
+                    if (can_adapt(options.adapt, adopted_white(image, lighting, options.observer)))
+                        return false;
+                    left_out.insert(lighting.name);
+                    return true;
+                });
+                differences.push_back({dresses.size() > 1 ? transports[i].string() : "", dye, {}});
+                if (lightings.size() >= 2)
+                    differences.back().lamps = compare_lightings(image, lightings, options);
             }
         }
+        for (const std::string &lamp : left_out)
+            console.warning("no eye adapts to the lamp '" + lamp +
+                            "', so it has no differences from others");
         return differences;
     }
 

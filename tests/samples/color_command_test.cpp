@@ -126,6 +126,63 @@ TEST(Program, FiguresHaveTheExposureThatIsStated) {
               std::string::npos);
 }
 
+// Two files of one name are called by their paths; one file twice is no comparison.
+TEST(Program, ComparesFilesOfOneName) {
+    const Scratch scratch;
+    const std::string first = (scratch / "satin/a.exr").string(),
+                      second = (scratch / "taffeta/a.exr").string(),
+                      third = (scratch / "b.exr").string();
+    ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", first}).status, 0);
+    std::filesystem::create_directories(scratch / "taffeta");
+    write_file(second, read_file(first));
+    write_file(third, read_file(first));
+    const std::string report = (scratch / "r.json").string(),
+                      sheet = (scratch / "sheet.png").string();
+    const Outcome made = run(scratch, {"compare", first, second, third, "--lamps", "D65,A",
+                                       "--report", report, "-o", sheet});
+    ASSERT_EQ(made.status, 0) << made.err;
+    std::vector<std::string> pictures;
+    const json numbers = json::parse(read_file(report));
+    for (const json &part : numbers.at("parts"))
+        pictures.push_back(part.at("picture"));
+    EXPECT_EQ(pictures, (std::vector<std::string>{first, second, "b"}));
+    // Swatches of its own part in each row, so that all rows are as high as those of one picture
+    const int high = read_image(sheet).height;
+    ASSERT_EQ(run(scratch, {"compare", first, "--lamps", "D65,A", "-o", sheet}).status, 0);
+    EXPECT_LE(high, 3 * read_image(sheet).height);
+    for (const std::string &again : {first, (scratch / "satin/../satin/a.exr").string()}) {
+        const Outcome twice =
+            run(scratch, {"compare", first, again, "--lamps", "D65,A", "-o", sheet});
+        EXPECT_EQ(twice.status, 2);
+        EXPECT_NE(twice.err.find("is given twice; expected each picture once"), std::string::npos)
+            << twice.err;
+    }
+}
+
+// A line shines: it is on sheet and report, and has no differences, because no eye adapts to it.
+TEST(Program, ComparesALine) {
+    const Scratch scratch;
+    const std::string exr = (scratch / "a.exr").string(), report = (scratch / "r.json").string(),
+                      sheet = (scratch / "sheet.png").string();
+    ASSERT_EQ(run(scratch, {"render", write_scene(scratch), "-o", exr}).status, 0);
+    const std::string line = scratch.write("laser650.csv", "649,0\n650,1\n651,0\n").string();
+    const auto compared = [&](const std::string &lamps) {
+        const Outcome made =
+            run(scratch, {"compare", exr, "--lamps", lamps, "-o", sheet, "--report", report});
+        EXPECT_EQ(made.status, 0) << made.err;
+        EXPECT_NE(made.err.find("no eye adapts to the lamp 'laser650'"), std::string::npos)
+            << made.err;
+        return std::pair(made.out, json::parse(read_file(report)));
+    };
+    const auto [alone, none] = compared("D65," + line);
+    EXPECT_EQ(none.at("differences").size(), 0u);
+    EXPECT_EQ(alone.find("CIEDE2000"), std::string::npos) << alone;
+    EXPECT_EQ(none.at("lamps").size(), 2u);
+    const auto [table, numbers] = compared("D65," + line + ",A");
+    ASSERT_EQ(numbers.at("differences").size(), 1u);
+    EXPECT_EQ(numbers["differences"][0].at("second"), "A");
+}
+
 TEST(Program, RelightsIntoEveryFormat) {
     const Scratch scratch;
     const std::string exr = (scratch / "a.exr").string();

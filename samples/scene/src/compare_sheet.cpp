@@ -46,9 +46,16 @@ std::string decimal(double value, int decimals) {
     return text.str();
 }
 
+/// CIELAB is known: the white beside it has no stimulus that is 0, as under a single line.
+bool is_known(const glm::dvec3 &lab) {
+    return std::isfinite(lab.x) && std::isfinite(lab.y) && std::isfinite(lab.z);
+}
+
 /// The colour of a swatch: CIELAB beside a lamp's white, shown beside the display's as bright as in
-/// the pictures. \param stops exposure that the colour has in it
+/// the pictures. Grey where it is not known. \param stops exposure that the colour has in it
 glm::dvec3 swatch_color(const glm::dvec3 &lab, double stops, const DisplayOptions &look) {
+    if (!is_known(lab))
+        return glm::dvec3(0.5);
     const glm::dvec3 xyz = xyz_of_lab(lab, srgb_white());
     Image one = Image::make(1, 1, {"X", "Y", "Z"});
     for (int c = 0; c < 3; ++c)
@@ -199,8 +206,10 @@ void CompareSheet::add_swatches(std::span<const PartReport> parts, int width, in
             swatches.marks.push_back(
                 {0.04, middle - line, part.name.empty() ? part.kind : part.name});
             swatches.marks.push_back({0.04, middle + line,
-                                      "L* " + decimal(lab.x, 1) + "  a* " + decimal(lab.y, 1) +
-                                          "  b* " + decimal(lab.z, 1)});
+                                      is_known(lab)
+                                          ? "L* " + decimal(lab.x, 1) + "  a* " +
+                                                decimal(lab.y, 1) + "  b* " + decimal(lab.z, 1)
+                                          : "no L* a* b*"});
         }
         row.push_back(std::move(swatches));
     }
