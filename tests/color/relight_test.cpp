@@ -1,6 +1,8 @@
 #include "tsuya/color/relight.h"
 
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <mutex>
 #include <random>
 #include <set>
@@ -65,15 +67,20 @@ TEST(Relight, DepthsOfDyeAreExactAtEveryWavelength) {
     }
 }
 
-/// The threads that take rows when so many are asked for.
+/// The threads that take rows when so many are asked for. Each waits for the others, as a machine
+/// that is busy may be slow to start them.
 std::size_t threads_of_rows(int threads) {
     std::mutex mutex;
+    std::condition_variable arrived;
     std::set<std::thread::id> ids;
+    const auto wanted = static_cast<std::size_t>(threads);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     detail::run_with_threads(threads, [&] {
         for_rows(64, 1u << 17, [&](int, int) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-            const std::lock_guard lock(mutex);
+            std::unique_lock lock(mutex);
             ids.insert(std::this_thread::get_id());
+            arrived.notify_all();
+            arrived.wait_until(lock, end, [&] { return ids.size() >= wanted; });
         });
     });
     return ids.size();
